@@ -109,7 +109,7 @@ const std::vector<std::pair<std::string, char>> types = {
 using Room = std::map<char, std::size_t>;
 
 struct Member {
-  std::string type, name, value;
+  std::string type, name, value, field;
   YAML::Node where{};
 };
 
@@ -142,8 +142,8 @@ class Table {
   /// Of a struct of its own.
   std::vector<Member> members() const {
     std::vector<Member> out;
-    if (has_title()) out.push_back({"std::string", "title", "", entry_});
-    if (has(defines(), "ID")) out.push_back({"Id", "id", "0", entry_});
+    if (has_title()) out.push_back({"std::string", "title", "", "", entry_});
+    if (has(defines(), "ID")) out.push_back({"Id", "id", "0", "", entry_});
     out.insert(out.end(), declared_.begin(), declared_.end());
     return out;
   }
@@ -258,7 +258,7 @@ class Table {
       members_[names[k]] = name;
       const bool is_list = has_rule(field, "list");
       const Member one{is_list ? "std::vector<" + type + ">" : type, name,
-                       is_list || type == "std::string" ? "" : standard_of(field), field};
+                       is_list || type == "std::string" ? "" : standard_of(field), names[k], field};
       declared_.push_back(one);
     }
   }
@@ -465,12 +465,15 @@ void write_only_read(const YAML::Node& file, std::ostream& out) {
 /// A struct that has the members of all its tables, and the functions that they name.
 std::string struct_text(const std::string& name, const std::vector<Table>& tables) {
   std::string members, functions;
-  std::map<std::string, std::string> types_of;
+  std::map<std::string, std::string> types_of, member_of;
   std::set<std::string> declared;
   for (const Table& table : tables) {
     if (table.struct_name() != name) continue;
     for (const Member& one : table.members()) {
       const auto [before, is_new] = types_of.try_emplace(one.name, one.type);
+      if (const auto& other = member_of.try_emplace(one.field, one.name).first->second;
+          !one.field.empty() && other != one.name)
+        fail(one.where, fmt::format("{} was the member '{}' before", one.field, other));
       if (before->second != one.type)
         fail(one.where, fmt::format("'{}' was {} before", one.name, before->second));
       if (is_new)

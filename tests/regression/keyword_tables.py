@@ -70,6 +70,7 @@ CARD_FAULTS = [
     ("curve: [T, 1/L]", "curve: T", 9, "not [dimension of the abscissa, of the ordinate]"),
     ("box, box of", "bx, box of", 6, "'bx' is no kind of field"),
     ("when: SHAPE > 0", "when: FORM > 0", 11, "no field has the name 'FORM'"),
+    ("[TAU, T, time constant, {member: time}]", "[TAU, T, time constant]", 19, "TAU was the member 'time' before"),
     ("[TAU, T, time constant, {member: time}]", "[TAU, int, time constant, {member: time}]", 19, "'time' was Real before"),
 ]
 

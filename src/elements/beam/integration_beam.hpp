@@ -9,7 +9,6 @@ namespace courant {
 
 /// *INTEGRATION_BEAM: points in the section of beams whose section has QR/IRID = -IRID.
 struct IntegrationBeam : IntegrationBeamFields {
-  std::vector<Real> s{}, t{}, wf{};
   std::array<Real, 4> dimensions() const { return {d1, d2, d3, d4}; }
 };
 

@@ -1,4 +1,3 @@
-#include "elements/shell/integration_shell.hpp"
 #include "elements/shell/shell_element_cards.hpp"
 
 #include "keyword/registry.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "elements/shell/integration_shell.hpp"
+#include "elements/shell/shell_element_cards.hpp"
 #include "elements/shell/shells.hpp"
 #include "keyword/deck.hpp"
 #include "shell/section_shell.hpp"

@@ -13,7 +13,6 @@ namespace courant {
 namespace {
 
 struct MatSimplifiedRubber : MatSimplifiedRubberFields {
-  std::vector<Real> gi{}, betai{};
   std::shared_ptr<StrengthLaw> law(const Model& model) const;
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
 };
