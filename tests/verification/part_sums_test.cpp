@@ -30,17 +30,20 @@ Real kinetic_of_nodes(const World& world) {
   return sum;
 }
 void expect_parts_to_have_all(Simulation& s) {
-  Field<Real>& spin = *shared_fields::angular_velocity.find(s.world().nodes.fields);
+  Field<Real>* spin = shared_fields::angular_velocity.find(s.world().nodes.fields);
   for (Index n = 0; n < s.world().nodes.size(); ++n) {
     s.world().nodes.v.set(n, Vec(std::sin(n), 0.1 * n, -1));
-    spin.set(n, Vec(90, 70 * std::cos(n), -50));
+    if (spin) spin->set(n, Vec(90, 70 * std::cos(n), -50));
   }
   s.step([&](World& world, const Clock&, const std::string& who) {
     const Sample sample = s.sample(who);
-    Real kinetic = 0;
+    Real kinetic = 0, mass = 0, of_nodes = 0;
     Vec momentum = Vec::Zero(), all = Vec::Zero();
-    for (const PartSample& part : sample.parts) kinetic += part.kinetic, momentum += part.momentum;
-    for (Index n = 0; n < world.nodes.size(); ++n) all += world.nodes.m[n] * world.nodes.v.vec(n);
+    for (const PartSample& part : sample.parts)
+      kinetic += part.kinetic, momentum += part.momentum, mass += part.mass;
+    for (Index n = 0; n < world.nodes.size(); ++n)
+      all += world.nodes.m[n] * world.nodes.v.vec(n), of_nodes += world.nodes.m[n];
+    EXPECT_NEAR(mass / of_nodes, 1, 1e-12);
     EXPECT_NEAR(kinetic / kinetic_of_nodes(world), 1, 1e-12);
     EXPECT_NEAR((momentum - all).norm(), 0, 1e-12 * all.norm());
   });
@@ -54,6 +57,13 @@ TEST(PartSums, KineticEnergyOfPartsIsThatOfNodesWithTheirRotations) {
     ShellDeck deck;
     deck.plate(1, 0.8, 3, 2, 1, nullptr, triangles);
     deck.part(1, 0.1, "*MAT_ELASTIC\n1,1000.0,1.0E9,0.3\n");
+    expect_parts_to_have_all(*simulation_of(deck.text(1)));
+  }
+  for (const test::CellShape cells : {test::CellShape::hexahedron, test::CellShape::tetrahedra}) {
+    test::SolidDeck deck;
+    deck.cells = cells;
+    deck.block(Vec(1, 0.8, 0.6), 2, 2, 1, 1);
+    deck.cards = "*SECTION_SOLID\n1,1\n*PART\nblock\n1,1,1\n*MAT_ELASTIC\n1,1000.0,1.0E9,0.3\n";
     expect_parts_to_have_all(*simulation_of(deck.text(1)));
   }
   for (const bool discrete : {false, true}) {
