@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What every mutant of tests/verification/mutants.yaml and tests/mutation/structures.yaml replaces stands exactly once in its file.
+"""What every mutant of tests/verification/mutants.yaml and tests/mutation/structures*.yaml replaces stands exactly once in its file.
 
 usage: mutants_fit.py PROJECT_FOLDER
 """

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Do the tests notice broken beams, springs, mass scaling and deletion? Puts every change of structures.yaml behind a switch into the tree
-that BUILD belongs to, builds its tests once, and runs those that a change names with the change switched on. Then the tree is as before.
+"""Do the tests notice broken structures? Puts every change of structures.yaml and structures_ROOM.yaml behind a switch into the tree that BUILD
+belongs to, builds its tests once, and runs those that a change names with the change switched on. Then the tree is as before.
 
 usage: structures.py BUILD [--only TEXT] [--jobs J]
 
@@ -20,12 +20,17 @@ import yaml
 
 HERE = pathlib.Path(__file__).resolve().parent
 LONGEST = 600  # seconds
-OF_UNITS = ("Decks/", "FullShell.", "CompositeDamage.", "OrthoWall.", "BlastWave.", "BlockSums.", "TensionField.", "WovenFabric.", "Honeycomb.",
-            "SimplifiedRubber.", "RateFoam.", "WallPaths.", "WallSupport.", "EquationOfState.", "Spall.")  # tests of unit_tests
+PROGRAMS = ("unit_tests", "verification_tests")
 
 
 def declared():
-    return yaml.safe_load((HERE / "structures.yaml").read_text())
+    """Changes of structures.yaml and of the rooms beside it, structures_ROOM.yaml; each knows its room."""
+    out = []
+    for file in sorted(HERE.glob("structures*.yaml")):
+        room = file.stem.partition("_")[2] or "structures"
+        out += [{**change, "name": f"{room}: {change['name']}" if file.stem != "structures" else change["name"], "room": room}
+                for change in yaml.safe_load(file.read_text())]
+    return out
 
 
 def misfit(change, root):
@@ -53,10 +58,15 @@ def run(program, tests, number=None):
     return "" if done.returncode == 0 else failed[0] if failed else f"ended with {done.returncode}"
 
 
-def noticed(build, change, number=None):
+def suites(program):
+    listed = subprocess.run([program, "--gtest_list_tests"], stdout=subprocess.PIPE, text=True, check=True).stdout
+    return {line.split("#")[0].strip()[:-1] for line in listed.splitlines() if line and not line.startswith(" ")}
+
+
+def noticed(build, of_program, change, number=None):
     """By which test, "" if by none."""
-    for program in ("verification_tests", "unit_tests"):
-        tests = ":".join(t for t in change["tests"] if t.startswith(OF_UNITS) == (program == "unit_tests"))
+    for program, known in of_program.items():
+        tests = ":".join(t for t in change["tests"] if t.partition(".")[0] in known)
         if tests and (who := run(build / "tests" / program, tests, number)):
             return who
     return ""
@@ -85,18 +95,23 @@ def main():
         made = subprocess.run(targets, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if made.returncode != 0:
             sys.exit("\n".join(line for line in made.stdout.splitlines() if "error" in line) or made.stdout)
+        of_program = {name: suites(build / "tests" / name) for name in PROGRAMS}
         of_tests = collections.defaultdict(list)
         for change in changes:
             of_tests[tuple(change["tests"])].append(change)
         for tests, same in of_tests.items():
-            if who := noticed(build, same[0]):
+            if who := noticed(build, of_program, same[0]):
                 sys.exit(f"{who} fails without a change")
-        unnoticed = 0
+        unnoticed, rooms = 0, collections.defaultdict(lambda: [0, 0])
         with concurrent.futures.ThreadPoolExecutor(max(1, arguments.jobs // 2)) as pool:
-            for change, who in zip(changes, pool.map(lambda pair: noticed(build, pair[1], pair[0]), enumerate(changes))):
+            for change, who in zip(changes, pool.map(lambda pair: noticed(build, of_program, pair[1], pair[0]), enumerate(changes))):
                 reason = change.get("reason", "")
                 unnoticed += not who and not reason
+                rooms[change["room"]][0] += bool(who)
+                rooms[change["room"]][1] += 1
                 print(f"{change['name']}: {who or 'NOT NOTICED' + (': ' + reason if reason else '')}", flush=True)
+        for room, (seen, all_) in sorted(rooms.items()):
+            print(f"{room}: {seen} of {all_} are noticed")
         print(f"{len(changes) - unnoticed} of {len(changes)} are noticed, or need not be")
         return 1 if unnoticed else 0
     finally:

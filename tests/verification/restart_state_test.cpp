@@ -1,71 +1,17 @@
 // Every number that a restart keeps matters: changed, it changes what comes after.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <iterator>
 #include <set>
 
-#include "base/restart_error.hpp"
-#include "base/run_error.hpp"
-#include "same_bits.hpp"
+#include "beam_decks.hpp"
+#include "joint_decks.hpp"
+#include "restart_walk.hpp"
 
 using namespace courant;
 using test::SolidDeck;
 
 namespace restart_state_test {
 namespace {
-
-/// Other numbers of the same kind: indices and flags become 0 or one more, reals grow by a tenth and a bit.
-void change(SavedArray& array) {
-  std::byte* const bytes = array.bytes.data();
-  const auto each = [&](auto zero, const auto& other) {
-    for (std::size_t k = 0; k < array.count(); ++k) {
-      decltype(zero) value;
-      std::memcpy(&value, bytes + k * sizeof value, sizeof value);
-      value = other(value);
-      std::memcpy(bytes + k * sizeof value, &value, sizeof value);
-    }
-  };
-  switch (array.type) {
-    case SavedType::real:
-      return each(Real(0), [](Real x) { return 1.1 * x + 1e-6; });
-    case SavedType::integer64:
-      return each(std::int64_t(0), [](std::int64_t n) { return n == 0 ? 1 : n - 1; });
-    case SavedType::integer32:
-      return each(std::int32_t(0), [](std::int32_t n) { return n == 0 ? 1 : n - 1; });
-    case SavedType::byte:
-      return each(char(0), [](char c) { return static_cast<char>(c == 0 ? 1 : 0); });
-  }
-}
-
-/// Names whose change, in the state at any of these times, nothing notices: neither the reader, nor the run,
-/// nor fields, what histories print and the state at the end.
-std::vector<std::string> unnoticed(const std::string& deck, const std::vector<int>& saved_at, int steps) {
-  std::set<std::string> all, noticed;
-  for (const int at : saved_at) {
-    auto s = test::simulation_of(deck);
-    for (int k = 0; k < at; ++k) s->step(test::do_nothing);
-    const SavedState saved = test::saved_state(*s);
-    const test::WholeState reference = test::state_after(*s, steps);
-    for (const auto& [name, array] : saved) {
-      if (array.bytes.empty() || noticed.contains(name)) continue;
-      all.insert(name);
-      SavedState other = saved;
-      change(other.at(name));
-      try {
-        if (!test::differences(reference, test::state_after_restart(deck, std::move(other), steps)).empty())
-          noticed.insert(name);
-      } catch (const RestartError&) {
-        noticed.insert(name);
-      } catch (const RunError&) {
-        noticed.insert(name);
-      }
-    }
-  }
-  std::vector<std::string> out;
-  std::set_difference(all.begin(), all.end(), noticed.begin(), noticed.end(), std::back_inserter(out));
-  return out;
-}
 
 /// A block that slides and rubs on a rigid plate, which is driven, and meets a moving rigid wall with
 /// friction.
@@ -110,8 +56,8 @@ TEST(RestartState, EveryNumberOfARubbingBlockMatters) {
                                         "passes/rigid bodies/part 2/omega",
                                         "passes/rigid wall 1/force",
                                         "solids of part 1/damped_stress"};
-  for (const std::string& name : unnoticed(rubbing_block(), {10, 60, 110}, 130))
-    EXPECT_TRUE(made_anew.contains(name.substr(std::string("state/").size()))) << name;
+  for (const std::string& name : test::walk(rubbing_block(), {10, 60, 110}, 130).unnoticed)
+    EXPECT_TRUE(made_anew.contains(name)) << name;
   test::expect_same_bits(rubbing_block(), 130, 60);
 }
 

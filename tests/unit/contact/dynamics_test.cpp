@@ -286,3 +286,24 @@ TEST(ContactDynamics, InitialPenetrationsAreCounted) {
 }
 
 }  // namespace
+
+/// mu = FD + (FS - FD) exp(-DC v) of the push, and no more than the stress VC on a face of the particle.
+TEST(ContactDynamics, FrictionFallsWithTheSlipAndIsBoundedByAStress) {
+  for (const Real vc : {0.0, 2.0}) {
+    Scene s;
+    s.plate(Vec(-0.05, 0, 0), Vec(0.5, 0, 0), Vec(0, 0.1, 0), 50, 10);
+    s.law.fs = 0.5, s.law.fd = 0.2, s.law.dc = 3, s.law.vc = vc;
+    s.x = {Vec(0, 0.043, 0.0095)};
+    s.v = {Vec(0.4, 0, 0)};
+    s.build();
+    s.before_move = [&] { s.world.particles.f.set(0, Vec::Zero()); };
+    for (int k = 0; k < 5; ++k) {
+      s.step(1e-3);
+      const Vec pushed = s.contact->report().on_surfa;
+      if (k < 4) continue;
+      const Real most = (0.2 + 0.3 * std::exp(-3 * 0.4)) * std::abs(pushed.z()), dx = std::cbrt(s.m / s.rho);
+      EXPECT_LT(vc * dx * dx, most);
+      EXPECT_NEAR(std::abs(pushed.x()), vc > 0 ? vc * dx * dx : most, 1e-12);
+    }
+  }
+}
