@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <cstdint>
 #include <utility>
 
 #include "elements/shell/facets.hpp"
@@ -62,11 +62,13 @@ class OfFacets : public CurvatureWatch {
         for (std::size_t c = 0; c < 4; ++c) node[c] = w.group.node.data(static_cast<int>(c))[e];
         corners_.push_back(node);
       }
-    find_neighbours(normals(world));
+    find_neighbours(world, normals(world));
     at_start_ = forms(world);
   }
 
-  void look(World& world) override {
+  void look(World& world, std::int64_t cycle) override {
+    if (cycle < next_) return;
+    next_ = cycle + steps_between;
     const std::vector<Sheet> now = forms(world);
     Real missing = 0, held = 0;
     for (const Watched& w : groups_)
@@ -87,6 +89,7 @@ class OfFacets : public CurvatureWatch {
     world.maxima["unresisted_curvature"] = counts ? missing_ / held_ : 0;
   }
   void keep(Archive& archive) override {
+    archive("next", next_);
     archive("missing", missing_);
     archive("held", held_);
     archive("scene", scene_);
@@ -115,23 +118,31 @@ class OfFacets : public CurvatureWatch {
     }
     return out;
   }
-  void find_neighbours(const std::vector<Vec>& normal) {
-    std::map<Index, std::vector<std::size_t>> at;
+  void find_neighbours(const World& world, const std::vector<Vec>& normal) {
+    std::vector<std::vector<std::uint32_t>> at(static_cast<std::size_t>(world.nodes.size()));
     for (std::size_t s = 0; s < corners_.size(); ++s)
-      for (const Index n : corners_[s]) at[n].push_back(s);
+      for (const Index n : corners_[s])
+        at[static_cast<std::size_t>(n)].push_back(static_cast<std::uint32_t>(s));
+    std::vector<std::uint32_t> met;  // at the corners of a shell
     for (std::size_t s = 0; s < corners_.size(); ++s) {
-      std::map<std::size_t, int> shared;  // corners, by neighbour
+      met.clear();
       for (const Index n : corners_[s]) {
-        for (const std::size_t other : at[n]) {
-          const Real cosine = normal[s].normalized().dot(normal[other].normalized());
+        for (const std::uint32_t other : at[static_cast<std::size_t>(n)]) {
+          const Real cosine = normal[s].dot(normal[other]) / (normal[s].norm() * normal[other].norm());
           if (!(std::abs(cosine) > smooth)) continue;
           neighbour_.push_back({other, cosine > 0});
-          ++shared[other];
+          met.push_back(other);
         }
         end_.push_back(neighbour_.size());
       }
-      inside_.push_back(
-          std::count_if(shared.begin(), shared.end(), [](const auto& n) { return n.second == 2; }) >= 4);
+      std::sort(met.begin(), met.end());
+      int sides = 0;  // shared with another: two corners
+      for (std::size_t k = 1, run = 1; k <= met.size(); ++k)
+        if (k < met.size() && met[k] == met[k - 1])
+          ++run;
+        else
+          sides += std::exchange(run, 1) == 2;
+      inside_.push_back(sides >= 4);
     }
   }
   /// Second fundamental form of each shell by the mean normals of its corners, in natural coordinates.
@@ -164,15 +175,17 @@ class OfFacets : public CurvatureWatch {
   }
 
   struct Neighbour {
-    std::size_t shell;
+    std::uint32_t shell;
     bool alike;  ///< its normal points to the same side
   };
+  static constexpr std::int64_t steps_between = 100;
   std::vector<Watched> groups_;
   std::vector<std::array<Index, 4>> corners_;
   std::vector<Neighbour> neighbour_;  ///< of each corner of each shell in turn, itself among them
   std::vector<std::size_t> end_;      ///< where those of corner c of shell s end, at 4 s + c
   std::vector<bool> inside_;          ///< shells with a smooth neighbour on each side
   std::vector<Sheet> at_start_;
+  std::int64_t next_ = 0;
   Real missing_ = 0, held_ = 0, scene_ = 0;  ///< summed over the looks [ML2/T2]
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,7 +23,8 @@ void note_facets(const Model& model, const std::vector<ShellPart>& parts, World&
 class CurvatureWatch : public Pass, public Restartable {
  public:
   std::string name() const override { return "curvature of shells"; }
-  virtual void look(World& world) = 0;
+  /// Does nothing until some steps behind the last look: a look takes as long as two steps.
+  virtual void look(World& world, std::int64_t cycle) = 0;
 };
 /// Null: there are no such shells.
 std::shared_ptr<CurvatureWatch> make_curvature_watch(const std::vector<ShellPart>& parts, World& world);
