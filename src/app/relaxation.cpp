@@ -120,15 +120,17 @@ RelaxationEnd relax(Simulation& s, const std::function<bool()>& stop,
   return out;
 }
 
-RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
-                           const std::function<void(const std::string&)>& tell) {
-  if (!run.relaxation().asked) return {.converged = true};
+std::optional<RunEnd> relax_before(Simulation& run, const RunOptions& options,
+                                   const std::function<std::optional<RunEnd>()>& stop,
+                                   const std::function<void(const std::string&)>& tell) {
+  if (!run.relaxation().asked) return std::nullopt;
   if (!options.relaxing) throw RunError("the deck asks for a relaxation, and no simulation of it was given");
   TextFile file(result_path(options.dir, result_names::relaxation));
   file.write(relaxation_head);
   tell(" dynamic relaxation");
+  std::optional<RunEnd> stopped;
   const RelaxationEnd end = relax(
-      *options.relaxing, [&] { return options.stop && *options.stop; },
+      *options.relaxing, [&] { return (stopped = stop()).has_value(); },
       [&](const std::string& line) { file.write(line); });
   tell(fmt::format(" {} at time {:.6g}, cycle {}: kinetic energy {:.3e} of its largest",
                    end.converged ? "converged"
@@ -138,11 +140,10 @@ RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
   run.start_from(*options.relaxing);
   if (!end.converged) run.world().maxima["relaxation_ratio"] = end.ratio;
   if (!end.converged && end.factor > 0) run.world().maxima["relaxation_factor"] = end.factor;
-  if (const auto angle = run.world().maxima.find("angle_between_facets"); angle != run.world().maxima.end())
-    run.world().maxima["angle_of_relaxed_facets"] = angle->second;
   if (end.creeps) run.world().maxima["relaxation_ahead"] = end.ahead;
   if (end.yielded > 0) run.world().maxima["relaxation_plastic_strain"] = end.yielded;
-  return end;
+  if (!stopped) return std::nullopt;
+  return RunEnd{.reason = stopped->reason + ", in the relaxation before it", .interrupted = true};
 }
 
 void Simulation::slow_down(Real factor) {

@@ -1,8 +1,10 @@
 #pragma once
 // The relaxation in front of a run: another simulation of the deck, whose state the run begins with.
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "app/run_ends.hpp"
 #include "app/simulation.hpp"
 
 namespace courant {
@@ -28,8 +30,10 @@ RelaxationEnd relax(Simulation& relaxing, const std::function<bool()>& stop,
                     const std::function<void(const std::string&)>& line);
 
 /// The same in front of a run whose deck asks for it: writes the file `relax`, hands the state to `run`, and
-/// tells of it by `tell`. Throws RunError where `options` lack the other simulation.
-RelaxationEnd relax_before(Simulation& run, const RunOptions& options,
-                           const std::function<void(const std::string&)>& tell);
+/// tells of it by `tell`. Returns what `stop` said, if that ended it. Throws RunError where `options` lack
+/// the other simulation.
+std::optional<RunEnd> relax_before(Simulation& run, const RunOptions& options,
+                                   const std::function<std::optional<RunEnd>()>& stop,
+                                   const std::function<void(const std::string&)>& tell);
 
 }  // namespace courant

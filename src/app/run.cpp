@@ -69,11 +69,8 @@ class Run {
     print_start();
     try {
       if (const std::string why = s_.why_not_until(end_); !why.empty()) throw RunError(why);
-      if (options_.restart)
-        go_on();
-      else if (relax_before(s_, options_, [this](const std::string& line) { messag_.line(line); }).stopped)
-        return stop_at({.reason = "stopped in its relaxation", .interrupted = true}), close(), summary_;
-      loop();
+      options_.restart ? go_on() : relax_first();
+      if (summary_.reason.empty()) loop();
       finish_normally();
     } catch (const RunError& error) {
       fail(error.what());
@@ -266,6 +263,14 @@ class Run {
     return true;
   }
 
+  /// Stopped there, a run has no restart file, from which it would go on without the rest.
+  void relax_first() {
+    const RunEnds ends(s_, options_.stop);
+    const auto stop = [&] { return ends.called_off(cpu_seconds() - cpu_start_); };
+    if (const auto end = relax_before(s_, options_, stop, [&](const auto& line) { messag_.line(line); }))
+      stop_at(*end);
+  }
+
   void loop() {
     const RunEnds ends(s_, options_.stop);
     while (s_.clock().t < end_) {
@@ -292,7 +297,7 @@ class Run {
   void at_time_level(World& world, const Clock& clock, const std::string& who) {
     who_ = who;
     tell_failures(world, clock, messag_);
-    if (clock.cycle == first_cycle_) print_first_step(clock);
+    if (clock.cycle == first_cycle_) tell_first_step(world, clock, who, messag_);
     summary_.dt_min = std::min(summary_.dt_min, clock.dt);
     summary_.dt_max = std::max(summary_.dt_max, clock.dt);
     if (field_schedule_.take(clock.t, clock.dt) || plot_wanted_) write_fields(world, clock);
@@ -303,12 +308,6 @@ class Run {
       messag_.line(
           fmt::format("          step set by {}  {}  {} left", who, state_in_words(s_.world()), time_left()));
     }
-  }
-
-  void print_first_step(const Clock& clock) {
-    messag_.line(fmt::format(" initial kinetic energy = {:.8E}", s_.world().energy.kinetic));
-    messag_.line(" initialization completed");
-    messag_.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who_));
   }
 
   void write_fields(World& world, const Clock& clock) {

@@ -22,15 +22,21 @@ RunEnds::RunEnds(Simulation& simulation, const std::atomic<bool>* stop)
 std::optional<RunEnd> RunEnds::reached(double cpu) const {
   const Clock& clock = s_.clock();
   const Id endcyc = s_.model().endcyc;
-  if (stop_ && stop_->load())
-    return RunEnd{.reason = fmt::format("stopped by a signal at time {:.6g}", clock.t), .interrupted = true};
+  if (auto end = called_off(cpu)) return end;
   stop_without_progress(clock);
   if (endcyc > 0 && clock.cycle >= endcyc) return RunEnd{.reason = "termination cycle reached"};
   for (const Ending* ending : endings_)
     if (auto why = ending->ended(s_.world(), clock)) return RunEnd{.reason = *std::move(why)};
+  return std::nullopt;
+}
+
+std::optional<RunEnd> RunEnds::called_off(double cpu) const {
+  const Real t = s_.clock().t;
+  if (stop_ && stop_->load())
+    return RunEnd{.reason = fmt::format("stopped by a signal at time {:.6g}", t), .interrupted = true};
   if (most_cpu_ > 0 && cpu >= most_cpu_)
     return RunEnd{
-        .reason = fmt::format("CPUTIM = {:g} s of *CONTROL_CPU are spent at time {:.6g}", most_cpu_, clock.t),
+        .reason = fmt::format("CPUTIM = {:g} s of *CONTROL_CPU are spent at time {:.6g}", most_cpu_, t),
         .interrupted = true,
         .wants_restart = true};
   return std::nullopt;

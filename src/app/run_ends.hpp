@@ -23,6 +23,8 @@ class RunEnds {
   /// Between two steps. `cpu`: time of all threads since this call of the program began [s]
   /// Throws RunError where the steps have become so short that the end cannot be reached.
   std::optional<RunEnd> reached(double cpu) const;
+  /// A signal, or CPUTIM: what ends the relaxation in front of a run, too.
+  std::optional<RunEnd> called_off(double cpu) const;
 
  private:
   void stop_without_progress(const Clock& clock) const;

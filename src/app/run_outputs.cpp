@@ -65,6 +65,12 @@ OutputSchedule field_schedule(const Simulation& s, Real end) {
   return wanted.d3plot_count > 0 ? OutputSchedule(end / wanted.d3plot_count) : schedule(wanted.d3plot);
 }
 
+void tell_first_step(const World& world, const Clock& clock, const std::string& who, Messag& messag) {
+  messag.line(fmt::format(" initial kinetic energy = {:.8E}", world.energy.kinetic));
+  messag.line(" initialization completed");
+  messag.line(fmt::format("first step {:.4E} [T], set by {}", clock.dt, who));
+}
+
 void tell_failures(const World& world, const Clock& clock, Messag& messag) {
   constexpr std::int64_t most_shown = 20;
   for (const auto* reporter : world.passes.all<const FailureReporter>())

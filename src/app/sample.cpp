@@ -4,6 +4,7 @@
 
 #include "app/momentum_watch.hpp"
 #include "app/simulation.hpp"
+#include "elements/shell/facets.hpp"
 #include "extension/additions.hpp"
 #include "state/shared_fields.hpp"
 #include "state/tied_mass.hpp"
@@ -187,6 +188,7 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
   sample_parts(world_, model_, s);
   for (auto* watch : world_.passes.all<MomentumWatch>()) watch->look(s, world_);
+  for (auto* watch : world_.passes.all<CurvatureWatch>()) watch->look(world_, clock_.cycle);
   for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
   for (const auto* nodes : world_.passes.all<const InterfaceReporter>())
     add_interface(nodes->report(), s.interfaces);

@@ -30,7 +30,15 @@ inline constexpr Index lanes = 8;
 namespace COURANT_SIMD {
 
 using Native = Real __attribute__((vector_size(COURANT_SIMD_BYTES)));
+#ifdef __clang__  // takes a vector for aligned whatever its type says, but not within a packed struct
+struct __attribute__((packed, may_alias)) NativeInMemory {
+  Native value;
+  COURANT_INLINE operator Native() const { return value; }
+  COURANT_INLINE void operator=(Native a) { value = a; }
+};
+#else
 using NativeInMemory = Real __attribute__((vector_size(COURANT_SIMD_BYTES), aligned(8), may_alias));
+#endif
 inline constexpr int native_lanes = COURANT_SIMD_BYTES / 8;
 inline constexpr int parts = lanes / native_lanes;
 

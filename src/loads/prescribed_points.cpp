@@ -49,7 +49,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   std::string name() const override { return "prescribed " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
-    a.updates(*points_.v).updates(*points_.f).reads(group_);
+    a.revises(*points_.v).updates(*points_.f).reads(group_);  // behind the damping of a relaxation
     if (axes_) a.updates(*axes_);
     if (around_) a.reads(*points_.x);
   }

@@ -1,9 +1,11 @@
 // *CONTROL_DYNAMIC_RELAXATION: what is preloaded stands as in statics, and stays so in the run behind it.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -235,6 +237,57 @@ TEST(Relaxation, SlowsNodesThatMotionsDoNotDriveNow) {
     EXPECT_TRUE(r.end.converged) << sidr;
     EXPECT_NEAR(r.run->world().nodes.x.data(2)[10] / plain, 1, 1e-3) << sidr;
   }
+}
+
+// A node, a rotation, and the end of a bar that is pulled by a velocity: where the curve says, not where the
+// factor of the relaxation lets them come.
+TEST(Relaxation, DrivenNodesGoAsTheirCurvesSay) {
+  using namespace test::beams;
+  const std::string ramp = "*DEFINE_CURVE\n77,1\n0.0,0.0\n0.01,0.003\n1000.0,0.003\n";
+  const std::string velocity = "*DEFINE_CURVE\n77,1\n0.0,0.1\n0.02,0.1\n0.0201,0.0\n1000.0,0.0\n";
+  for (const bool by_velocity : {false, true}) {
+    const std::string motion = fmt::format("*BOUNDARY_PRESCRIBED_MOTION_NODE\n11,3,{},77,1.0\n{}",
+                                           by_velocity ? 0 : 2, by_velocity ? velocity : ramp);
+    const std::string text = cantilever(square_2, 10, relaxation(500, 1e-6, 0.99) + motion, 0);
+    auto s = built(text, RunPhase::relaxation);
+    Real farthest = 0;
+    while (s->clock().t < 0.03) {
+      s->step(test::do_nothing);
+      const Real t = s->clock().t, x = s->world().nodes.x.data(2)[10],
+                 is_due = by_velocity ? (t < 0.02 ? 0.1 * t : x) : 0.003 * std::min<Real>(1, t / 0.01);
+      farthest = std::max(farthest, std::abs(x - is_due));
+    }
+    EXPECT_LT(farthest, 1e-7) << by_velocity;
+    if (by_velocity) EXPECT_NEAR(s->world().nodes.x.data(2)[10], 0.1 * 0.02005, 1e-5);
+  }
+}
+
+// Stopped by a signal: the state it had come to is in histories and summary, doubtful, and no restart file
+// lets the run go on without the rest.
+TEST(Relaxation, StoppedOnItsWayLeavesHistories) {
+  using namespace test::beams;
+  const std::string text = cantilever(square_2, 10,
+                                      relaxation(100, 1e-12, 0.9999) +
+                                          "*DATABASE_GLSTAT\n0.01\n*DATABASE_NODOUT\n"
+                                          "0.01\n*DATABASE_HISTORY_NODE\n11\n");
+  auto run = built(text, RunPhase::transient), before = built(text, RunPhase::relaxation);
+  const std::string dir = testing::TempDir() + "stopped_relaxation";
+  std::filesystem::remove_all(dir);
+  std::filesystem::create_directories(dir);
+  std::atomic<bool> stop = true;
+  RunOptions options;
+  options.dir = dir, options.relaxing = before.get(), options.stop = &stop;
+  const Summary summary = courant::run(*run, "test.k", options);
+  EXPECT_EQ(summary.termination, "interrupted");
+  EXPECT_EQ(summary.reason, "stopped by a signal at time 0, in the relaxation before it");
+  EXPECT_EQ(summary.verdict, "doubtful");
+  EXPECT_TRUE(summary.restart_file.empty());
+  for (const char* file : {"/glstat", "/nodout", "/relax", "/history.h5", "/summary.yaml"})
+    EXPECT_GT(std::filesystem::file_size(dir + file), 50U) << file;
+  std::ifstream nodout(dir + "/nodout");
+  const std::string all((std::istreambuf_iterator<char>(nodout)), {});
+  EXPECT_NE(all.find("\n       11 "), std::string::npos) << all;
+  EXPECT_TRUE(!std::filesystem::exists(dir + "/restart") || std::filesystem::is_empty(dir + "/restart"));
 }
 
 TEST(Relaxation, LeavesInitialVelocitiesToTheRun) {

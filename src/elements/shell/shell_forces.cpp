@@ -6,10 +6,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/null_elements.hpp"
+#include "elements/shell/facets.hpp"
 #include "elements/shell/flow_stress.hpp"
 #include "elements/shell/layer_axes.hpp"
 #include "elements/shell/layers.hpp"
@@ -458,6 +460,7 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
                                                    held, world));
     world.passes.add(make_shell_report(part, *group, shown));
   }
+  if (auto watch = make_curvature_watch(parts, world)) world.passes.add(std::move(watch));
 }
 
 }  // namespace courant

@@ -27,7 +27,7 @@ struct EosTabulated : VolumePoints {
   VolumeTable pressures(const Model& model) const { return volume_table(model, lcc, *this, {c(), t()}, c()); }
   VolumeTable factors(const Model& model) const { return volume_table(model, lct, *this, {c(), t()}, t()); }
   Tabulated law(const Model& model) const {
-    return {std::make_shared<Tabulated::Tables>(pressures(model), factors(model)), gama};
+    return {std::make_shared<Tabulated::Tables>(Tabulated::Tables{pressures(model), factors(model)}), gama};
   }
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
     if (!check_volume_table(deck, *this, "LCC", lcc, pressures(model), diagnostics)) return;

@@ -46,8 +46,8 @@ struct EosTabulatedCompaction : VolumePoints {
     return volume_table(model, id, *this, {c(), t(), k()}, column);
   }
   Compaction law(const Model& model) const {
-    return {std::make_shared<Compaction::Tables>(table(model, lcc, c()), table(model, lct, t()),
-                                                 table(model, lck, k())),
+    return {std::make_shared<Compaction::Tables>(
+                Compaction::Tables{table(model, lcc, c()), table(model, lct, t()), table(model, lck, k())}),
             gama};
   }
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;

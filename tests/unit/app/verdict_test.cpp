@@ -52,10 +52,14 @@ TEST(Verdict, RelaxationsOfYieldingAndOfFacets) {
   EXPECT_THAT(texts(findings(s)),
               ElementsAre(HasSubstr("yielded, to a plastic strain of 0.0057, in a dynamic "
                                     "relaxation whose load acts at once")));
-  s.maxima = {{"angle_between_facets", 2.5}};  // noted by check
+  s.maxima = {{"angle_between_facets", 2.5}, {"unresisted_curvature", 0.0299}};
   EXPECT_EQ(verdict(s), "sound");
-  s.maxima["angle_of_relaxed_facets"] = 2.5;
-  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("give BWC 1 of *CONTROL_SHELL")));
+  s.maxima["unresisted_curvature"] = 0.0301;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("3.01 % of their energy: without a stiffness")));
+  s.maxima["unresisted_curvature"] = 0;
+  s.energy.internal = 1, s.energy.hourglass = 0.2;
+  EXPECT_THAT(texts(findings(s)), Contains(HasSubstr("meet at angles, give BWC 1 of *CONTROL_SHELL")));
+  s.energy.internal = s.energy.hourglass = 0;
   s.maxima = {{"relaxation_ratio", 0.1}, {"relaxation_factor", 0.998}};
   EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a DRFCTR of 0.998, by its lowest frequency")));
 }
