@@ -298,9 +298,10 @@ class Builder {
   /// The solids of a part; adds their nodes to those of its body.
   void cells_of(Index part, std::set<Index>& nodes, Member& member) {
     for (const ModelSolid& solid : model_.solids) {
-      if (solid.part != part) continue;
-      SkinCell& cell = member.cells.emplace_back(SkinCell{.id = solid.id});
       const std::array<Index, 8> corner = solid.corners();
+      const bool reported = std::count(corner.begin(), corner.end(), Index(-1)) > 0;  // five to seven nodes
+      if (solid.part != part || reported) continue;
+      SkinCell& cell = member.cells.emplace_back(SkinCell{.id = solid.id});
       for (std::size_t c = 0; c < corner.size(); ++c) {
         const ModelNode& node = model_.nodes[static_cast<std::size_t>(corner[c])];
         nodes.insert(cell.node[c] = world_node_.at(node.id));
