@@ -122,9 +122,10 @@ TEST(PartSums, EnergyOfDeletedElementsIsToldOfTheirPart) {
   expect(deck.text(1));
   test::beams::BeamDeck beams;
   beams.part(1, test::beams::square_1,
-             "*MAT_ELASTIC\n1,7850.0,2.1E+11,0.3\n*MAT_ADD_EROSION\n1\n0.0,0.0,0.0,0.01\n");
+             "*MAT_ELASTIC\n1,7850.0,2.1E+11,0.3\n*MAT_ADD_EROSION\n1\n0.0,0.0,0.0,0.005\n*CONTROL_"
+             "TIMESTEP\n0.0,0.1\n");
   beams.line(2, 0.2, [](int k) { return k == 0 ? ",7,7" : ""; });
-  beams.velocity([](int n) { return Vec(n == 3 ? 30 : 0, 0, 0); });
+  beams.velocity([](int n) { return Vec(n == 3 ? 40 : 0, 0, 0); });
   expect(beams.text(1));
 }
 

@@ -7,7 +7,6 @@
 
 #include "output/ascii.hpp"
 #include "output/history.hpp"
-#include "output/history_checksum.hpp"
 #include "output_test.hpp"
 
 namespace courant {
