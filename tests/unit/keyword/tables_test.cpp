@@ -174,7 +174,7 @@ TEST(Tables, DimensionsOfCurvesAreKnown) {
     const FieldSpec& field = spec.cards[c].fields[f];
     if (field.rules.refers != IdSpace::curve || !has_effect(field) || !spec.lacking.empty()) return;
     if (spec.names[0].rfind("DEFINE_TABLE", 0) == 0) return;  // refused in a file with unit factors
-    if (field.curve_of) return;  // other fields decide
+    if (field.curve_of) return;                               // other fields decide
     ASSERT_TRUE(field.rules.curve.known()) << full_name_of(spec, field) << ": say it beside the field";
     EXPECT_TRUE(is_dimension(field.rules.curve.abscissa) && is_dimension(field.rules.curve.ordinate));
   });
