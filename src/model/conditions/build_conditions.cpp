@@ -143,16 +143,29 @@ bool ModelBuilder::take_relaxing(const Entry& card, const char* field, Id id, Cu
   return own != nullptr;
 }
 
+namespace {
+
+bool has_rigid_bodies(const Deck& deck) {
+  return std::any_of(deck.keywords.begin(), deck.keywords.end(), [](const auto& use) {
+    const std::string& name = use.first;
+    return name.starts_with("MAT_RIGID") || name.starts_with("MAT_020") ||
+           (name.starts_with("CONSTRAINED_") && name.find("RIGID") != std::string::npos);
+  });
+}
+
+}  // namespace
+
 void ModelBuilder::build_constraints() {
   struct Held {
     std::array<bool, 3> axes, turns;
   };
+  // Where nodes do not turn, those of rigid bodies hold the body.
+  const bool turn = model_.turns() || has_rigid_bodies(deck_);
   const auto held_by = [&](const BoundarySpcCard& card) {
     const std::array<bool, 3> none{}, turns = {card.dofrx == 1, card.dofry == 1, card.dofrz == 1};
     const int before = errors_;
     Held out{held_directions(card, {card.dofx == 1, card.dofy == 1, card.dofz == 1}, "translations"), none};
-    if (model_.turns() && turns != none && errors_ == before)
-      out.turns = held_directions(card, turns, "rotations");
+    if (turn && turns != none && errors_ == before) out.turns = held_directions(card, turns, "rotations");
     return out;
   };
   const auto hold = [&](Index n, const Held& held) {
@@ -168,7 +181,7 @@ void ModelBuilder::build_constraints() {
     if (!members) continue;
     for (const Index n : *members) hold(n, held);
   }
-  if (!model_.turns()) return;
+  if (!turn) return;
   for (const NodeCard& card : deck_.all<NodeCard>())  // the first of each id is the node
     if (const Index n = card.rc == 0 ? -1 : node_of_id_.find(card.nid); n >= 0)
       hold_rotations(n, axes_of_code(card.rc));
