@@ -15,7 +15,7 @@ struct RigidWallCard : RigidWallFields {
 
 /// *RIGIDWALL_PLANAR with its options
 struct RigidWallPlanar : RigidWallCard {
-  /// The name tells which cards there are; in the order of their `combine`.
+  /// Options of the name, in the order of `combine` in load_cards.yaml.
   bool finite() const { return name & 1; }
   bool moving() const { return name & 2; }
   bool forces() const { return name & 4; }
@@ -28,7 +28,7 @@ struct RigidWallOrtho : RigidWallPlanar {};
 /// *RIGIDWALL_GEOMETRIC_FLAT, _PRISM, _CYLINDER and _SPHERE with their options
 struct RigidWallGeometric : RigidWallCard {
   enum class Shape { flat, prism, cylinder, sphere };
-  /// The name tells the shape and which cards there are; in the order of their `combine`.
+  /// Shape and options of the name, in the order of names and `combine` in load_cards.yaml.
   Shape shape() const { return static_cast<Shape>(name & 3); }
   bool moves() const { return name & 4; }
   bool display() const { return name & 8; }
