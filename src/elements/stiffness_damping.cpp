@@ -1,10 +1,10 @@
 #include "elements/stiffness_damping.hpp"
+#include "elements/element_cards.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "laws/objective.hpp"
 
@@ -12,33 +12,13 @@ namespace courant {
 
 namespace {
 
-struct DampingPartStiffness : Entry {
-  Id pid = 0;
-  Real coef = 0;
+struct DampingPartStiffness : DampingPartStiffnessFields {
   bool of_sets() const { return name == 1; }
 };
 
 using S = DampingPartStiffness;
 
-/// A fraction has no unit, beta has.
-std::string convert_beta(S& card, const Conversion& conversion) {
-  if (card.coef < 0) card.coef *= conversion.units.time;
-  return {};
-}
-
-const RegisterKeyword<S> damping_part_stiffness_keyword{
-    {.names = {"DAMPING_PART_STIFFNESS", "DAMPING_PART_STIFFNESS_SET"},
-     .purpose = "damping stress against the rate of strain, in proportion to the stiffness of parts",
-     .cards = {{.fields = {{"PID",
-                            &S::pid,
-                            "-",
-                            "part id; _SET: part set id",
-                            {.required = true, .check = Check::positive},
-                            [](const S& card) { return card.of_sets() ? IdSpace::part_set : IdSpace::part; }},
-                           {"COEF", &S::coef, "-",
-                            "> 0: fraction of critical damping at the highest frequency of an element; < 0: "
-                            "-beta of Rayleigh, a time"}}}},
-     .convert = convert_beta}};
+const RegisterKeyword<S> damping_part_stiffness_keyword{damping_part_stiffness_table()};
 
 class StiffnessReader {
  public:
@@ -116,6 +96,12 @@ class StiffnessReader {
 };
 
 }  // namespace
+
+/// A fraction has no unit, beta has.
+std::string convert_beta(DampingPartStiffnessFields& card, const Conversion& conversion) {
+  if (card.coef < 0) card.coef *= conversion.units.time;
+  return {};
+}
 
 std::vector<Real> stiffness_damping(const Deck& deck, const Model& model,
                                     const std::vector<std::shared_ptr<StrengthLaw>>& laws,

@@ -7,92 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
 namespace {
 
-struct LoadBlastEnhanced : Entry {
-  Id bid = 0, nidbo = 0, vid = 0, gnid = 0, gvid = 0;
-  Real m = 0, xbo = 0, ybo = 0, zbo = 0, tbo = 0, cfm = 0, cfl = 0, cft = 0, cfp = 0, death = 1e20;
-  Real vel = 0, temp = 0, ratio = 0;
-  int unit = 2, blast = 2, negphs = 0;
-};
-using Charge = LoadBlastEnhanced;
-/// Of kinds of blasts that are refused.
-constexpr FieldRules idle_reference(IdSpace space) {
-  return {.honour = Honour::ignored, .refers = space};
-}
-constexpr FieldRules factor_of_units{.check = Check::not_negative};
-
-/// Mass, places and time are converted, and those of the fits are not.
-template <class Card>
-std::string keep_units_of_fits(Card&, const Conversion& conversion) {
-  return conversion.units.any() ? "the units of a blast are those that UNIT names" : "";
-}
-const RegisterKeyword<Charge> load_blast_enhanced{
-    {.names = {"LOAD_BLAST_ENHANCED"},
-     .purpose =
-         "charge whose air blast pushes faces of *LOAD_BLAST_SEGMENT, by the fits of Kingery and Bulmash",
-     .cards =
-         {{.fields =
-               {{"BID", &Charge::bid, "-", "number of the charge", rules::required_id},
-                {"M", &Charge::m, "M", "equivalent mass of TNT", rules::required_positive},
-                {"XBO", &Charge::xbo, "L", "its place, x", rules::point},
-                {"YBO", &Charge::ybo, "L", "its place, y"},
-                {"ZBO", &Charge::zbo, "L", "its place, z"},
-                {"TBO", &Charge::tbo, "T", "time of detonation"},
-                {"UNIT",
-                 &Charge::unit,
-                 "-",
-                 "1 ft lb s psi, 2 m kg s Pa, 3 in (12 slugs) s psi, 4 cm g us Mbar, 5 CFM to CFP, 6 mm kg "
-                 "ms GPa, 7 mm t s MPa, 8 mm g ms MPa",
-                 {.standard = 2, .allowed = {1, 2, 3, 4, 5, 6, 7, 8}}},
-                {"BLAST",
-                 &Charge::blast,
-                 "-",
-                 "1 hemisphere on the ground, 2 sphere in free air; others (3, 4) are refused",
-                 {.standard = 2}}}},
-          {.fields = {{"CFM", &Charge::cfm, "-", "UNIT 5: pounds per unit of mass", factor_of_units},
-                      {"CFL", &Charge::cfl, "-", "UNIT 5: feet per unit of length", factor_of_units},
-                      {"CFT", &Charge::cft, "-", "UNIT 5: milliseconds per unit of time", factor_of_units},
-                      {"CFP", &Charge::cfp, "-", "UNIT 5: psi per unit of pressure", factor_of_units},
-                      {"NIDBO", &Charge::nidbo, "-", "node at whose place at the start it is",
-                       rules::optional_id_of(IdSpace::node)},
-                      {"DEATH", &Charge::death, "T", "when the pressure ends", rules::or_blank(1e20)},
-                      {"NEGPHS", &Charge::negphs, "-", "0: suction follows, 1: none", {.allowed = {0, 1}}}}},
-          {.fields = {{"VEL", &Charge::vel, "L/T", "speed of the charge", unsupported},
-                      {"TEMP", &Charge::temp, "-", "temperature of the air", no_effect},
-                      {"RATIO", &Charge::ratio, "-", "aspect ratio of the charge", no_effect},
-                      {"VID", &Charge::vid, "-", "direction of the charge", idle_reference(IdSpace::vector)}},
-           .when = [](const Charge& b) { return b.blast == 3; }},
-          {.fields = {{"GNID", &Charge::gnid, "-", "node on the ground", idle_reference(IdSpace::node)},
-                      {"GVID", &Charge::gvid, "-", "normal of the ground", idle_reference(IdSpace::vector)}},
-           .when = [](const Charge& b) { return b.blast == 4; }}},
-     .convert = keep_units_of_fits<Charge>}};
-
-constexpr FieldRules ambient_part{.honour = Honour::no, .refers = IdSpace::part};
-using BlastFaceCard = BlastSegment;
-const RegisterKeyword<BlastFaceCard> load_blast_segment{
-    {.names = {"LOAD_BLAST_SEGMENT"},
-     .purpose =
-         "face that a blast pushes; its normal, up where N1 to N4 run counter-clockwise, looks to the charge",
-     .cards = {{.fields =
-                    {{"BID", &BlastFaceCard::bid, "-", "charge", rules::required_id},
-                     {"N1", &BlastFaceCard::n1, "-", "corner", rules::required_id_of(IdSpace::node)},
-                     {"N2", &BlastFaceCard::n2, "-", "corner", rules::required_id_of(IdSpace::node)},
-                     {"N3", &BlastFaceCard::n3, "-", "corner", rules::required_id_of(IdSpace::node)},
-                     {"N4", &BlastFaceCard::n4, "-", "corner; of a triangle N3 or 0",
-                      rules::optional_id_of(IdSpace::node)},
-                     {"ALEPID", &BlastFaceCard::alepid, "-", "ambient part of an ALE air", ambient_part},
-                     {"SFNRB", &BlastFaceCard::sfnrb, "-", "of ambient parts", no_effect},
-                     {"SCALEP", &BlastFaceCard::scalep, "-", "factor on the pressure", rules::or_blank(1)}}}},
-     .move = [](BlastFaceCard& card, const Affine& motion) {
-       if (motion.linear().determinant() < 0) std::swap(card.n1, card.n3);
-       return std::string();
-     }}};
+const RegisterKeyword<LoadBlastEnhanced> load_blast_enhanced{load_blast_enhanced_table()};
+const RegisterKeyword<BlastSegment> load_blast_segment{load_blast_segment_table()};
 const RegisterKeyword<BlastSegmentSet> load_blast_segment_set{load_blast_segment_set_table()};
 
 /// Pounds, feet, milliseconds and psi per unit of mass, length, time and pressure, by UNIT - 1; of 5 none.
@@ -139,6 +61,16 @@ bool read_source(const LoadBlastEnhanced& card, const Deck& deck, const Model& m
 }
 
 }  // namespace
+
+/// Mass, places and time are converted, and those of the fits are not.
+std::string keep_units_of_fits(LoadBlastEnhanced&, const Conversion& conversion) {
+  return conversion.units.any() ? "the units of a blast are those that UNIT names" : "";
+}
+
+std::string keep_side_of_blast(BlastSegment& card, const Affine& motion) {
+  if (motion.linear().determinant() < 0) std::swap(card.n1, card.n3);
+  return {};
+}
 
 Real BlastSource::scaled(Real distance) const {
   return distance * feet / std::cbrt(mass * pounds);

@@ -33,10 +33,4 @@ struct BlastSource {
 /// there.
 std::vector<BlastSource> blast_sources(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
-/// *LOAD_BLAST_SEGMENT
-struct BlastSegment : Entry {
-  Id bid = 0, n1 = 0, n2 = 0, n3 = 0, n4 = 0, alepid = 0;
-  Real sfnrb = 0, scalep = 1;
-};
-
 }  // namespace courant

@@ -1,5 +1,6 @@
 // *CONSTRAINED_INTERPOLATION.
 #include "loads/interpolation.hpp"
+#include "loads/load_cards.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@
 
 #include "base/rotation.hpp"
 #include "extension/additions.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/carried_mass.hpp"
 #include "state/points.hpp"
@@ -26,54 +26,9 @@ namespace courant {
 
 namespace {
 
-struct ConstrainedInterpolation : Entry {
-  Id icid = 0, dnid = 0, cidd = 0;
-  int ddof = 123456, ityp = 0, idnsw = 0, fgm = 0;
-  std::vector<Id> inid{};
-  std::vector<Id> idof{};
-  std::vector<Real> twghtx{}, twghty{}, twghtz{}, rwghtx{}, rwghty{}, rwghtz{};
-};
 using CI = ConstrainedInterpolation;
 
-IdSpace independent_space(const CI& card) {
-  return card.ityp == 1 ? IdSpace::node_set : IdSpace::node;
-}
-const FieldRules weight_of_node{.check = Check::not_negative};
-
-const RegisterKeyword<CI> constrained_interpolation{
-    {.names = {"CONSTRAINED_INTERPOLATION"},
-     .purpose = "node that goes and turns with the weighted mean of others, which bear what it bears",
-     .many = false,
-     .cards = {
-         {.fields = {{"ICID", &CI::icid, "-", "number", {.check = Check::not_negative}},
-                     {"DNID", &CI::dnid, "-", "dependent node", rules::required_id_of(IdSpace::node)},
-                     {"DDOF",
-                      &CI::ddof,
-                      "-",
-                      "123: it does not turn with the others; 123456: it does",
-                      {.standard = 123456, .allowed = {123, 123456}}},
-                     {"CIDD",
-                      &CI::cidd,
-                      "-",
-                      "system of the degrees of freedom",
-                      {.honour = Honour::no, .refers = IdSpace::coordinate_system}},
-                     {"ITYP", &CI::ityp, "-", "INID is 0 a node, 1 a node set", {.allowed = {0, 1}}},
-                     {"IDNSW", &CI::idnsw, "-", "what happens where nodes are deleted", unsupported},
-                     {"FGM", &CI::fgm, "-", "of implicit runs", no_effect}}},
-         {.fields = {{"INID", &CI::inid, "-", "independent node or set", rules::required_id,
-                      independent_space},
-                     {"IDOF",
-                      &CI::idof,
-                      "-",
-                      "123, or 123456 (also blank) where the nodes do not turn: only their places count",
-                      {.standard = 123456, .allowed = {123, 123456}}},
-                     {"TWGHTX", &CI::twghtx, "-", "weight of each node, 0: 1", rules::or_blank(1)},
-                     {"TWGHTY", &CI::twghty, "-", "the same along y; 0 or TWGHTX", weight_of_node},
-                     {"TWGHTZ", &CI::twghtz, "-", "the same along z; 0 or TWGHTX", weight_of_node},
-                     {"RWGHTX", &CI::rwghtx, "-", "weights of rotations", no_effect},
-                     {"RWGHTY", &CI::rwghty, "-", "the same", no_effect},
-                     {"RWGHTZ", &CI::rwghtz, "-", "the same", no_effect}},
-          .repeat = true}}}};
+const RegisterKeyword<CI> constrained_interpolation{constrained_interpolation_table()};
 
 /// Nodes are indices into World::nodes.
 struct Interpolation {

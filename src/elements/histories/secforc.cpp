@@ -93,7 +93,7 @@ class SectionReader {
   }
 
   void add(const CrossSectionCard& card, CrossSection section, const char* field, const char* if_empty) {
-    section.id = card.csid, section.title = card.heading;
+    section.id = card.id, section.title = card.title;
     if (card.system != 0 && !take_axes(card, section)) return;
     if (section.empty()) deck_.warning(diagnostics_, card, field, if_empty);
     out_->sections.push_back(std::move(section));
@@ -137,7 +137,7 @@ class SectionReader {
       CrossSection& section = out_->sections[k];
       if (section.id == 0) section.id = static_cast<Id>(sorted.size()) + 1;
       if (!known.insert(section.id).second)
-        error(*cards_[k], cards_[k]->csid == 0 ? "ID" : "CSID",
+        error(*cards_[k], cards_[k]->id == 0 ? "ID" : "CSID",
               fmt::format("there are two cross sections {}", section.id),
               "give each an id of its own by _ID");
       sorted.push_back(std::move(section));

@@ -8,8 +8,8 @@
 
 #include "elements/discrete/discrete.hpp"
 #include "elements/histories/element_choice.hpp"
+#include "elements/histories/history_cards.hpp"
 #include "elements/histories/secforc.hpp"
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "loads/sensor_force.hpp"
 #include "loads/sensors.hpp"
@@ -18,58 +18,12 @@ namespace courant {
 
 namespace {
 
-struct SensorDefineElement : Entry {
-  std::string title, etype, comp, ctype, layer, setopt;
-  Id sensid = 0, elemid = 0;
-  Real sf = 1, pwr = 1;
+struct SensorDefineElement : SensorDefineElementFields {
   bool of_set() const { return name == 1; }
 };
 
 using ElementSensor = SensorDefineElement;
-IdSpace measured_space(const ElementSensor& card) {
-  if (card.of_set())
-    return card.etype == "SOLID"   ? IdSpace::solid_set
-           : card.etype == "SHELL" ? IdSpace::shell_set
-           : card.etype == "BEAM"  ? IdSpace::beam_set
-                                   : IdSpace::none;
-  return card.etype == "SOLID"      ? IdSpace::solid
-         : card.etype == "SHELL"    ? IdSpace::shell
-         : card.etype == "DISC-ELE" ? IdSpace::discrete
-                                    : IdSpace::beam;
-}
-std::string keep_scale_of_sensor(ElementSensor& card, const Conversion& conversion) {
-  return conversion.units.any() && card.sf != 1
-             ? "SF goes with units that are not converted: put the card into a file without unit factors"
-             : "";
-}
-const RegisterKeyword<ElementSensor> sensor_define_element{
-    {.names = {"SENSOR_DEFINE_ELEMENT", "SENSOR_DEFINE_ELEMENT_SET"},
-     .purpose = "stress, force or failure of an element, or of a set of elements, for switches",
-     .title_option = true,
-     .title = &ElementSensor::title,
-     .cards =
-         {{.fields =
-               {{"SENSID", &ElementSensor::sensid, "-", "id that switches refer to", rules::required_id},
-                {"ETYPE", &ElementSensor::etype, "-", "BEAM (also blank), SHELL, SOLID or DISC-ELE"},
-                {"ELEMID",
-                 &ElementSensor::elemid,
-                 "-",
-                 "element, or set of elements",
-                 {.required = true, .check = Check::positive},
-                 measured_space},
-                {"COMP", &ElementSensor::comp, "-",
-                 "XX (also blank), YY, ZZ, XY, YZ, ZX along global axes; of beams AXIAL, SHEARS, SHEART"},
-                {"CTYPE", &ElementSensor::ctype, "-",
-                 "STRESS of shells and solids, FORCE and MOMENT of beams, FORCE and DLEN of DISC-ELE, FAIL "
-                 "(1 "
-                 "once it is deleted); STRAIN, which a blank field means, is refused"},
-                {"LAYER", &ElementSensor::layer, "-",
-                 "of shells: the integration point at BOT (also blank) or TOP"},
-                {"SF", &ElementSensor::sf, "-", "factor", rules::or_blank(1)},
-                {"PWR", &ElementSensor::pwr, "-", "power", {.standard = 1, .honour = Honour::no}}}},
-          {.fields = {{"SETOPT", &ElementSensor::setopt, "-", "of a set: AVG, MAX, MIN or SUM"}},
-           .when = [](const ElementSensor& card) { return card.of_set(); }}},
-     .convert = keep_scale_of_sensor}};
+const RegisterKeyword<ElementSensor> sensor_define_element{sensor_define_element_table()};
 
 using Number = std::function<Real(const World&)>;
 
@@ -256,5 +210,24 @@ const RegisterSensors sensors_of_sections{[](const Deck& deck, const Model& mode
 }};
 
 }  // namespace
+
+IdSpace measured_space(const SensorDefineElementFields& fields) {
+  const auto& card = static_cast<const SensorDefineElement&>(fields);
+  if (card.of_set())
+    return card.etype == "SOLID"   ? IdSpace::solid_set
+           : card.etype == "SHELL" ? IdSpace::shell_set
+           : card.etype == "BEAM"  ? IdSpace::beam_set
+                                   : IdSpace::none;
+  return card.etype == "SOLID"      ? IdSpace::solid
+         : card.etype == "SHELL"    ? IdSpace::shell
+         : card.etype == "DISC-ELE" ? IdSpace::discrete
+                                    : IdSpace::beam;
+}
+
+std::string keep_scale_of_element(SensorDefineElementFields& card, const Conversion& conversion) {
+  return conversion.units.any() && card.sf != 1
+             ? "SF goes with units that are not converted: put the card into a file without unit factors"
+             : "";
+}
 
 }  // namespace courant

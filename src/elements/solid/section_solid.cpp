@@ -7,36 +7,15 @@
 #include <map>
 #include <set>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {
 
 namespace {
 
-using namespace rules;
 using S = SectionSolid;
 
-const RegisterKeyword<S> section_solid{
-    {.names = {"SECTION_SOLID"},
-     .purpose = "formulation of solid elements: one point (ELFORM 1; 10 for tetrahedra, 15 and 115 for "
-                "pentahedra), eight and a constant pressure (2), or tetrahedra whose pressure is averaged "
-                "over nodes (13)",
-     .id_space = IdSpace::section,
-     .title_option = true,
-     .title = &S::title,
-     .cards = {{.fields = {{"SECID", &S::secid, "-", "id that *PART refers to", required_id},
-                           {"ELFORM", &S::elform, "-", "formulation; 0 as 1", or_blank(1)},
-                           {"AET", &S::aet, "-", "ambient elements"},
-                           {},
-                           {},
-                           {},
-                           {"COHOFF", &S::cohoff, "-", "place of the cohesive layer"},
-                           {"GASKETT", &S::gaskett, "L", "thickness of the gasket"}}},
-               // how many lines these have, their own numbers tell; parts that use such sections are refused
-               {.fields = {{"USER", &S::user, "-", "user-defined formulation (ELFORM 101 to 105)"}},
-                .repeat = true,
-                .when = [](const S& s) { return s.elform >= 101 && s.elform <= 105; }}}}};
+const RegisterKeyword<SectionSolid> section_solid{section_solid_table()};
 
 /// Formulations by the number of different nodes of their elements; 0: any. `points`: what LS-DYNA has, of
 /// which those of pentahedra are too many here.
@@ -99,6 +78,11 @@ void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
 }
 
 }  // namespace
+
+// how many lines these have, their own numbers say; parts that use such sections are refused
+bool is_formulation_of_users(const SectionSolid& s) {
+  return s.elform >= 101 && s.elform <= 105;
+}
 
 int solid_formulation(const Deck& deck, const ModelPart& part) {
   for (const S& s : deck.all<S>())

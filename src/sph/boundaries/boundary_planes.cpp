@@ -5,48 +5,17 @@
 
 #include <fmt/format.h>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "search/nearest_distance.hpp"
+#include "sph/boundaries/boundary_cards.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
 
 namespace {
 
-using namespace rules;
-
-struct BoundarySphSymmetryPlane : Entry {
-  Real vtx = 0, vty = 0, vtz = 0, vhx = 0, vhy = 0, vhz = 0;
-};
-KeywordOf<BoundarySphSymmetryPlane> boundary_sph_symmetry_plane() {
-  using T = BoundarySphSymmetryPlane;
-  return {
-      .names = {"BOUNDARY_SPH_SYMMETRY_PLANE"},
-      .purpose = "plane that mirrors particles: a frictionless wall that neither lacks neighbours nor leaks",
-      .cards = {{.fields = {{"VTX", &T::vtx, "L", "tail: a point on the plane", point},
-                            {"VTY", &T::vty, "L", "tail: a point on the plane"},
-                            {"VTZ", &T::vtz, "L", "tail: a point on the plane"},
-                            {"VHX", &T::vhx, "L", "head: from the tail into the material", point},
-                            {"VHY", &T::vhy, "L", "head: from the tail into the material"},
-                            {"VHZ", &T::vhz, "L", "head: from the tail into the material"}}}}};
-}
-const RegisterKeyword<BoundarySphSymmetryPlane> symmetry_keyword{boundary_sph_symmetry_plane()};
-
-struct BoundarySphPeriodic : Entry {
-  Id vid1 = 0, vid2 = 0;
-};
-KeywordOf<BoundarySphPeriodic> boundary_sph_periodic() {
-  using T = BoundarySphPeriodic;
-  return {.names = {"BOUNDARY_SPH_PERIODIC"},
-          .purpose = "two planes: what leaves through one enters through the other",
-          .cards = {
-              {.fields = {{"VID1", &T::vid1, "-", "vector from a point on the first plane into the material",
-                           required_id_of(IdSpace::vector)},
-                          {"VID2", &T::vid2, "-", "the same for the second plane, in the opposite direction",
-                           required_id_of(IdSpace::vector)}}}}};
-}
-const RegisterKeyword<BoundarySphPeriodic> periodic_keyword{boundary_sph_periodic()};
+const RegisterKeyword<BoundarySphSymmetryPlane> symmetry_keyword{boundary_sph_symmetry_plane_table()};
+const RegisterKeyword<BoundarySphPeriodic> periodic_keyword{boundary_sph_periodic_table()};
 
 class PlaneBuilder {
  public:

@@ -1,41 +1,19 @@
 // *INITIAL_STRESS_SPH: particles that start under pressure.
 #include "sph/materials/initial_stress.hpp"
+#include "sph/materials/material_cards.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "keyword/common_rules.hpp"
 #include "model/sets/id_index.hpp"
 
 namespace courant {
 
-using namespace rules;
-
 namespace {
 
-struct InitialStressSph : Entry {
-  Id eid = 0;
-  Real sigxx = 0, sigyy = 0, sigzz = 0, sigxy = 0, sigyz = 0, sigzx = 0, eps = 0;
-};
-
-KeywordOf<InitialStressSph> initial_stress_sph() {
-  using T = InitialStressSph;
-  return {.names = {"INITIAL_STRESS_SPH"},
-          .purpose =
-              "pressures of particles at the start: SIGXX = SIGYY = SIGZZ = -p; the density follows from "
-              "the equation of state, the mass stays",
-          .cards = {{.fields = {{"EID", &T::eid, "-", "particle id", required_id_of(IdSpace::node)},
-                                {"SIGXX", &T::sigxx, "M/LT2", "stress component, -p"},
-                                {"SIGYY", &T::sigyy, "M/LT2", "stress component, -p"},
-                                {"SIGZZ", &T::sigzz, "M/LT2", "stress component, -p"},
-                                {"SIGXY", &T::sigxy, "M/LT2", "stress component", unsupported},
-                                {"SIGYZ", &T::sigyz, "M/LT2", "stress component", unsupported},
-                                {"SIGZX", &T::sigzx, "M/LT2", "stress component", unsupported},
-                                {"EPS", &T::eps, "-", "effective plastic strain", unsupported}}}}};
-}
-const RegisterKeyword<InitialStressSph> initial_stress_sph_keyword{initial_stress_sph()};
+const RegisterKeyword<InitialStressSph> initial_stress_sph_keyword{initial_stress_sph_table()};
 
 /// Grows from a toward b until f changes sign between them; false if it does not. f(a) != 0 on entry.
 template <class F>

@@ -1,7 +1,6 @@
 // *COURANT_EDDY_VISCOSITY: the mixing length model of turbulence.
 #include <cmath>
 
-#include "keyword/common_rules.hpp"
 #include "keyword/registry.hpp"
 #include "sph/cards.hpp"
 #include "sph/core/fields.hpp"
@@ -11,44 +10,7 @@ namespace courant {
 
 namespace {
 
-/// LMAX has no direction to be stretched in.
-std::string refuse_stretching(CourantEddyViscosity&, const Affine& motion) {
-  const Matrix turn = motion.linear();
-  return (turn.transpose() * turn).isIdentity(1e-9)
-             ? ""
-             : "a mixing length can be turned and shifted, but not stretched";
-}
-
-KeywordOf<CourantEddyViscosity> courant_eddy_viscosity() {
-  using T = CourantEddyViscosity;
-  return {.names = {"COURANT_EDDY_VISCOSITY"},
-          .purpose = "eddy viscosity by a mixing length that grows with the distance from a wall",
-          .once = true,
-          .many = false,
-          .cards =
-              {{.fields =
-                    {{"LMAX",
-                      &T::lmax,
-                      "L",
-                      "largest mixing length; 0: no eddy viscosity",
-                      {.check = Check::not_negative}},
-                     {"CMU", &T::cmu, "-", "factor of l^2 |S|", {.standard = 0.09, .check = Check::positive}},
-                     {"KAPPA",
-                      &T::kappa,
-                      "-",
-                      "mixing length over the distance from the wall",
-                      {.standard = 0.41, .check = Check::positive}}}},
-               {.fields = {{"VTX", &T::vtx, "L", "tail: a point on the wall; tail and head alike: no wall",
-                            rules::point},
-                           {"VTY", &T::vty, "L", "tail: a point on the wall"},
-                           {"VTZ", &T::vtz, "L", "tail: a point on the wall"},
-                           {"VHX", &T::vhx, "L", "head: from the tail into the water", rules::point},
-                           {"VHY", &T::vhy, "L", "head: from the tail into the water"},
-                           {"VHZ", &T::vhz, "L", "head: from the tail into the water"}},
-                .optional = true}},
-          .move = refuse_stretching};
-}
-const RegisterKeyword<CourantEddyViscosity> eddy_viscosity_keyword{courant_eddy_viscosity()};
+const RegisterKeyword<CourantEddyViscosity> eddy_viscosity_keyword{courant_eddy_viscosity_table()};
 
 /// mu_i = MU + rho_i CMU l_i^2 |S|_i, l_i = min(KAPPA y_i, LMAX), |S| = sqrt(2 D:D), D the symmetric velocity
 /// gradient, y_i the distance from the wall (De Padova et al. 2017, with rho in it and without the factor
@@ -87,6 +49,14 @@ class EddyViscosity : public Material {
 };
 
 }  // namespace
+
+/// LMAX has no direction to be stretched in.
+std::string keep_mixing_length(CourantEddyViscosity&, const Affine& motion) {
+  const Matrix turn = motion.linear();
+  return (turn.transpose() * turn).isIdentity(1e-9)
+             ? ""
+             : "a mixing length can be turned and shifted, but not stretched";
+}
 
 void read_eddy_viscosity(const Deck& deck, const Model& model, const Particles& p, SphSettings& s,
                          Diagnostics& diagnostics) {
