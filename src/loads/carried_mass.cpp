@@ -254,6 +254,11 @@ void CarriedMass::strike(World& world, const Clock& clock) {
   push(world, clock);
 }
 
+void CarriedMass::declare_move(const World& world, Accesses& a) const {
+  a.in_finish().revises(world.nodes.x).revises(world.nodes.v);
+  if (any_) a.reads(world.nodes.follow).reads(world.nodes.f).reads(world.nodes.m).updates(open_);
+}
+
 void CarriedMass::move(World& world, const Clock& clock) {
   if (!(clock.dt > 0)) return;
   Nodes& nodes = world.nodes;

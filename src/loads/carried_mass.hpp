@@ -52,8 +52,9 @@ class CarriedMass : public Impact, public EnergyTerm {
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   /// Velocities at the start that fit: those with the least sum m |change|^2, as after a plastic impact.
   void join(World& world);
-  /// Once the carriers have moved.
+  /// Once the carriers have moved, in the finish of a pass.
   void move(World& world, const Clock& clock);
+  void declare_move(const World& world, Accesses& accesses) const;
   /// Whether the inertia of a carried node counts here, and its acceleration then.
   bool counts(std::size_t i) const { return counts_[i] != 0; }
   const Vec& acceleration(std::size_t i) const { return a_[i]; }

@@ -164,7 +164,7 @@ class InterpolationMotion : public Motion {
   std::string name() const override { return "interpolated nodes (motion)"; }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
-    a.in_finish().revises(world.nodes.x).revises(world.nodes.v);
+    inertia_->declare_move(world, a);
     if (speed_) a.revises(*angle_).revises(*speed_);
   }
   void block(World&, const Clock&, Index, Index) override {}

@@ -130,7 +130,7 @@ class TiedMotion : public Motion {
   std::string name() const override { return "tied contacts (motion)"; }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
-    a.in_finish().revises(world.nodes.x).revises(world.nodes.v);
+    inertia_->declare_move(world, a);
     if (turning_) a.revises(*turning_.angle).revises(*turning_.speed);
   }
   void block(World&, const Clock&, Index, Index) override {}
