@@ -1,10 +1,9 @@
-// Makes C++ of files that describe keywords, while the library is built: docs/write_your_own.md, "Cards", has
-// the format. What is wrong in a file is reported with its line, by this program or, of an id space, by the
-// compiler.
+// Makes C++ of files that describe keywords, while the library is built. docs/contributing.md has the format
+// of files of cards, keywords_only_read.yaml its own. What is wrong in a file is reported with its line.
 //
-//   keyword_tables NAME_cards.yaml NAME_cards.hpp         structs of the entries, and tables for
-//   RegisterKeyword keyword_tables keywords_only_read.yaml tables.cpp     tables of keywords without code of
-//   their own
+// keyword_tables NAME_cards.yaml NAME_cards.hpp: structs of the entries, and tables for RegisterKeyword
+//
+// keyword_tables keywords_only_read.yaml tables.cpp: tables of keywords without code of their own
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
@@ -166,9 +165,7 @@ class Table {
       if (has(options, option)) out += fmt::format(", .{} = true", option);
     if (has(defined, "HEADING")) out += ", .heading = true";
     if (entry_["once"]) out += ", .once = true";
-    if (entry_["once"] || entry_["many"])
-      out +=
-          std::string(", .many = ") + (entry_["many"].as<std::string>("false") == "true" ? "true" : "false");
+    if (entry_["once"] || entry_["many"]) out += fmt::format(", .many = {}", entry_["many"].as<bool>(false));
     if (has_title()) out += ", .title = member(&T::title).offset";
     if (has(defined, "ID"))
       out += fmt::format(", .id = member(&T::{}).offset", only_read_ ? "entry_id" : "id");
@@ -199,34 +196,11 @@ class Table {
   }
   /// What an id may refer to: src/keyword/id_space.hpp.
   static bool is_kind(const std::string& word) {
-    static const Words spaces = {"node",
-                                 "solid",
-                                 "shell",
-                                 "beam",
-                                 "discrete",
-                                 "mass",
-                                 "part",
-                                 "material",
-                                 "eos",
-                                 "section",
-                                 "hourglass",
-                                 "node_set",
-                                 "part_set",
-                                 "solid_set",
-                                 "shell_set",
-                                 "beam_set",
-                                 "segment_set",
-                                 "curve",
-                                 "box",
-                                 "vector",
-                                 "definition",
-                                 "contact",
-                                 "coordinate_system",
-                                 "boundary",
-                                 "rigid_wall",
-                                 "joint",
-                                 "joint_stiffness",
-                                 "transformation"};
+    static const Words spaces = split(
+        "node solid shell beam discrete mass part material eos section hourglass node_set part_set solid_set "
+        "shell_set beam_set segment_set curve box coordinate_system vector transformation definition contact "
+        "boundary rigid_wall joint joint_stiffness",
+        ' ');
     return is_dimension(word) || has({"int", "text", "real", "id"}, word) || has(spaces, word);
   }
   static YAML::Node rule_of(const YAML::Node& field, const char* key) {

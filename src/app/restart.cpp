@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "app/restart_cards.hpp"
+#include "app/app_cards.hpp"
 #include "app/result_folder.hpp"
 #include "base/instruction_set.hpp"
 #include "output/hdf5.hpp"

@@ -1,4 +1,3 @@
-#include "app/restart_cards.hpp"
 #include "app/app_cards.hpp"
 
 #include "keyword/registry.hpp"

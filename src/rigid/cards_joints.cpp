@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "keyword/registry.hpp"
+#include "model/conditions/prescribed_motion.hpp"
 #include "model/transforms/transformation.hpp"
 #include "rigid/joint_cards.hpp"
 
@@ -14,9 +15,8 @@ const RegisterKeyword<JointCard> joint_keyword{constrained_joint_spherical_table
 }  // namespace
 
 CurveOf curve_of_motor(const JointCardFields& fields) {
-  constexpr const char* values[3][2] = {{"L/T", "1/T"}, {"L/T2", "1/T2"}, {"L", "-"}};
-  const bool turns = static_cast<const JointCard&>(fields).kind() == JointKind::rotational_motor;
-  return {"T", fields.type >= 0 && fields.type <= 2 ? values[fields.type][turns] : "-"};
+  const auto& joint = static_cast<const JointCard&>(fields);
+  return curve_of_drive(joint.type, joint.kind() == JointKind::rotational_motor);
 }
 
 /// A helix that is mirrored turns the other way, as a motor does; its pitch is a length.

@@ -1,7 +1,7 @@
 #pragma once
 // Cards of particles, but those that one file alone uses.
 #include "keyword/deck.hpp"
-#include "model/conditions/viscosity_cards.hpp"
+#include "model/conditions/condition_cards.hpp"
 #include "sph/boundaries/boundary_cards.hpp"
 #include "sph/core/kernel_cards.hpp"
 #include "sph/options/option_cards.hpp"

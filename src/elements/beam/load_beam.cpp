@@ -12,7 +12,7 @@
 #include "keyword/registry.hpp"
 #include "loads/middle_velocity.hpp"
 #include "model/definitions/named_curve.hpp"
-#include "model/sets/set_beam.hpp"
+#include "model/sets/sets_cards.hpp"
 #include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "model/sets/set_beam.hpp"
+#include "model/sets/sets_cards.hpp"
 
 namespace courant {
 

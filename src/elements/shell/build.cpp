@@ -11,7 +11,7 @@
 #include "elements/shell/shells.hpp"
 #include "laws/fluid/mat_null.hpp"
 #include "model/cards.hpp"
-#include "model/conditions/viscosity_cards.hpp"
+#include "model/conditions/condition_cards.hpp"
 #include "shell/section_shell.hpp"
 
 namespace courant {

@@ -26,7 +26,6 @@ struct Watched {
   ElasticConstants elastic;
   Real second_moment = 0;  ///< of the thickness, over its third power
   std::size_t first = 0;   ///< of the shells of all groups
-  bool invariant_axes = false;
 
   bool yielded(Index e) const {
     return std::any_of(plastic.begin(), plastic.end(), [e](const auto* p) { return (*p)[e] > 0; });
@@ -213,9 +212,9 @@ std::shared_ptr<CurvatureWatch> make_curvature_watch(const std::vector<ShellPart
               .first = first};
     for (std::size_t k = 0; k < part.zeta.size(); ++k) {
       w.second_moment += 0.25 * part.share[k] * part.zeta[k] * part.zeta[k];
-      for (const HistoryVariable& h : part.law->history())
-        if (h.name == "plastic_strain")
-          w.plastic.push_back(&layer_history_of(*group, h, static_cast<int>(k)));
+      if (const int plastic = plastic_strain_of(*part.law); plastic >= 0)
+        w.plastic.push_back(&layer_history_of(*group, part.law->history()[static_cast<std::size_t>(plastic)],
+                                              static_cast<int>(k)));
     }
     if (!(w.second_moment > 0)) continue;
     first += static_cast<std::size_t>(group->size());

@@ -6,7 +6,7 @@
 
 #include "elements/shell/shell_loops.hpp"
 #include "keyword/deck.hpp"
-#include "model/conditions/viscosity_cards.hpp"
+#include "model/conditions/condition_cards.hpp"
 #include "model/model.hpp"
 
 namespace courant {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "model/conditions/viscosity_cards.hpp"
+#include "model/conditions/condition_cards.hpp"
 
 namespace courant {
 

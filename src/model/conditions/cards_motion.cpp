@@ -216,9 +216,13 @@ bool has_offsets(const MotionCard& card) {
   return std::abs(card.dof) >= first_around || card.vad == 4;
 }
 
-CurveOf curve_of_motion(const MotionCard& card) {
+CurveOf curve_of_drive(int vad, bool turns) {
   constexpr const char* values[3][2] = {{"L/T", "1/T"}, {"L/T2", "1/T2"}, {"L", "-"}};
-  return {"T", card.vad >= 0 && card.vad <= 2 ? values[card.vad][card.dof >= first_rotation] : "-"};
+  return {"T", vad >= 0 && vad <= 2 ? values[vad][turns] : "-"};
+}
+
+CurveOf curve_of_motion(const MotionCard& card) {
+  return curve_of_drive(card.vad, card.dof >= first_rotation);
 }
 
 bool has_motion_of_nodes(const Deck& deck, Id id) {

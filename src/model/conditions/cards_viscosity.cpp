@@ -1,7 +1,6 @@
 // Tables of artificial viscosity and hourglass control.
 #include "keyword/registry.hpp"
 #include "model/conditions/condition_cards.hpp"
-#include "model/conditions/viscosity_cards.hpp"
 
 namespace courant {
 

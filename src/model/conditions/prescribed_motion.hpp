@@ -40,6 +40,9 @@ struct PrescribedMotion {
   Real velocity(Real t, Real dt, Real dt_old, Real before) const;
 };
 
+/// Of a curve over time that drives, by VAD: 0 velocity, 1 acceleration, 2 displacement (else refused).
+CurveOf curve_of_drive(int vad, bool turns);
+
 /// Integral of a curve from a to b, exact for its straight pieces.
 Real integral(const Curve& curve, Real a, Real b);
 /// Integral of the curve's slope from a to b; what it jumps does not count.

@@ -1,5 +1,4 @@
 // *SET_BEAM. Histories and cross sections refer to it.
-#include "model/sets/set_beam.hpp"
 #include "model/sets/sets_cards.hpp"
 
 #include "keyword/registry.hpp"
