@@ -179,22 +179,27 @@ TEST(RigidBodyCards, ADeformablePartMayBeRigidFromTheStart) {
 
 // Turns that SPC holds of a node are those of its body, also where no node of the scene turns by itself.
 TEST(RigidBodies, ANodeHeldInItsTurnsHoldsThoseOfABodyOfSolids) {
-  SolidDeck deck;
-  deck.block(Vec(0.2, 0.4, 0.6), 1, 1, 1, 1);
-  deck.cards =
-      plain + "*SECTION_SOLID\n         1         1\n*MAT_RIGID\n         1    1000.0     1.0E9       0.3\n" +
-      "*INITIAL_VELOCITY_RIGID_BODY\n         1       1.0       2.0       3.0       0.5       0.7       "
-      "0.9\n" +
-      "*BOUNDARY_SPC_NODE\n         1         0         0         0         0         1         0         "
-      "1\n";
-  const auto s = simulation_of(deck.text(1));
-  ASSERT_NE(s, nullptr);
-  while (s->clock().t < 0.1) s->step(do_nothing);
-  const RigidBody& b = s->bodies()->bodies().front();
-  EXPECT_EQ(b.omega[0], 0);
-  EXPECT_NE(b.omega[1], 0);
-  EXPECT_EQ(b.omega[2], 0);
-  EXPECT_NEAR((b.x - Vec(0.1, 0.2, 0.3) - s->clock().t * Vec(1, 2, 3)).norm(), 0, 1e-12);
+  const std::string numbers = "\n         1    1000.0     1.0E9       0.3\n";
+  for (const std::string& rigid :
+       {"*MAT_RIGID" + numbers,
+        "*MAT_ELASTIC" + numbers + "*DEFORMABLE_TO_RIGID\n         1         0PART\n"}) {
+    SolidDeck deck;
+    deck.block(Vec(0.2, 0.4, 0.6), 1, 1, 1, 1);
+    deck.cards =
+        plain + "*SECTION_SOLID\n         1         1\n" + rigid +
+        "*INITIAL_VELOCITY_RIGID_BODY\n         1       1.0       2.0       3.0       0.5       0.7       "
+        "0.9\n"
+        "*BOUNDARY_SPC_NODE\n         1         0         0         0         0         1         0         "
+        "1\n";
+    const auto s = simulation_of(deck.text(1));
+    ASSERT_NE(s, nullptr) << rigid;
+    while (s->clock().t < 0.1) s->step(do_nothing);
+    const RigidBody& b = s->bodies()->bodies().front();
+    EXPECT_EQ(b.omega[0], 0) << rigid;
+    EXPECT_NE(b.omega[1], 0) << rigid;
+    EXPECT_EQ(b.omega[2], 0) << rigid;
+    EXPECT_NEAR((b.x - Vec(0.1, 0.2, 0.3) - s->clock().t * Vec(1, 2, 3)).norm(), 0, 1e-12) << rigid;
+  }
 }
 
 // CMO -1: along a system whose x is y, whose y is -x, and about whose z: the same as 4 (xy) and 3 (z) with

@@ -148,8 +148,8 @@ namespace {
 bool has_rigid_bodies(const Deck& deck) {
   return std::any_of(deck.keywords.begin(), deck.keywords.end(), [](const auto& use) {
     const std::string& name = use.first;
-    return name.starts_with("MAT_RIGID") || name.starts_with("MAT_020") ||
-           (name.starts_with("CONSTRAINED_") && name.find("RIGID") != std::string::npos);
+    return name.starts_with("MAT_020") ||
+           (name.find("RIGID") != std::string::npos && !name.starts_with("RIGIDWALL_"));
   });
 }
 
