@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/check.hpp"
+#include "elements/element_laws.hpp"
 #include "extension/additions.hpp"
 #include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
@@ -113,16 +114,18 @@ Real shortest_of(const World& world, const ElementGroup& lines) {
 
 void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
   const World& world = s.world();
+  const ElementLaws& laws = s.get<ElementLaws>();
   for (const auto& group : world.groups) {
     if (group->part == no_part) continue;
     PartRow& row = rows[group->part];
-    if (!s.law_of_elements(group->part)) {
+    const auto& of_elements = laws.of_part[static_cast<std::size_t>(group->part)];
+    if (!of_elements) {
       row = PartRow();
       row.elements = group->size(), row.kind = "spring", row.mass = 0;
       add_speed(world, *group, row);
       continue;
     }
-    const StrengthLaw& law = *s.law_of_elements(group->part);
+    const StrengthLaw& law = *of_elements;
     if (group->segment) {  // counted with the faces
       row.rho = law.ro;
       if (group->pushes) row.c = law.sound_speed();
@@ -135,7 +138,7 @@ void add_solids(const Simulation& s, std::vector<PartRow>& rows) {
     const bool beams = group->corners() == 2;
     row.elements = group->size(), row.kind = beams ? "beam" : "solid", row.mass = row.volume = 0;
     row.rho = law.ro;
-    if (group->pushes) row.c = s.sound_speed_of_elements(group->part);
+    if (group->pushes) row.c = laws.speed(group->part);
     for (Index e = 0; e < group->size(); ++e) row.mass += group->mass[e], row.volume += group->V0[e];
     row.spacing = std::cbrt(row.volume / row.elements);
     if (beams) row.spacing = shortest_of(world, *group);

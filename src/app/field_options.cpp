@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/nearest_word.hpp"
+#include "extension/builders.hpp"
 
 namespace courant {
 
@@ -17,10 +18,10 @@ const std::vector<std::string> small_fields = {"id",      "part",     "active", 
 constexpr Real small_eps = 1.0 / 256, small_epsx = 1.0 / 64;
 constexpr int small_level = 2;
 
-}  // namespace
-
-void check_field_names(const Deck& deck, const FieldRequests& wanted, const World& world,
-                       Diagnostics& diagnostics) {
+/// Refuses names of arrays in *COURANT_OUTPUT that the run does not have.
+void check_field_names(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics) {
+  if (world.particles.size() == 0) return;
+  const FieldRequests& wanted = model.output.fields;
   const std::vector<std::string> names = particle_array_names(world);
   for (const std::string& name : wanted.fields) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
@@ -30,6 +31,10 @@ void check_field_names(const Deck& deck, const FieldRequests& wanted, const Worl
                             : fmt::format("did you mean {}?", near));
   }
 }
+
+const RegisterBuilder names(BuildPhase::checks, "names of fields", check_field_names, Errors::go_on);
+
+}  // namespace
 
 FieldWriterOptions field_options(const Model& model, bool hide_inactive) {
   const FieldRequests& wanted = model.output.fields;

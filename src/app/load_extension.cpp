@@ -22,7 +22,7 @@ namespace courant {
 namespace {
 
 std::size_t registered() {
-  return keyword_registry().size() + additions().size() + ascii_histories().size() +
+  return keyword_registry().size() + world_builders().size() + ascii_histories().size() +
          interface_law_registry().size();
 }
 

@@ -7,6 +7,9 @@
 
 #include "elements/discrete/cards_discrete.hpp"
 #include "elements/mass_scaling.hpp"
+#include "extension/builders.hpp"
+#include "extension/part_values.hpp"
+#include "rigid/rigid.hpp"
 
 namespace courant {
 
@@ -49,8 +52,8 @@ bool held(const std::array<bool, 3>& axes) {
   return axes[0] || axes[1] || axes[2];
 }
 
-}  // namespace
-
+/// Whether nothing outside acts on what moves: the deck has only keywords that describe bodies, their
+/// materials, contacts and constraints among them, and outputs; nothing is held or driven.
 bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bodies) {
   if (model.phase == RunPhase::relaxation) return false;
   for (const auto& [name, use] : deck.keywords)
@@ -65,6 +68,15 @@ bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bod
   const MassScaling scaling = mass_scaling_of(deck);
   return scaling.step == 0 || scaling.once;
 }
+
+void watch_momentum(const Deck& deck, const Model& model, World& world, const BodyPasses&,
+                    const std::shared_ptr<RigidBodies>& bodies) {
+  world.passes.add(std::make_shared<MomentumWatch>(is_free_system(deck, model, bodies.get())));
+}
+
+const RegisterBuilder watch(BuildPhase::body_passes, "momentum", watch_momentum, Errors::go_on);
+
+}  // namespace
 
 // Momenta are of v^{n-1/2}: what acts among parts changes no sum, whatever the step.
 void MomentumWatch::look(const Sample& s, World& world) {

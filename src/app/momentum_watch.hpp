@@ -26,8 +26,4 @@ class MomentumWatch : public Pass, public Restartable {
   Vec first_ = Vec::Zero();
 };
 
-/// Whether nothing outside acts on what moves: the deck has only keywords that describe bodies, their
-/// materials, contacts and constraints among them, and outputs; nothing is held or driven.
-bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bodies);
-
 }  // namespace courant

@@ -11,6 +11,7 @@
 #include "output/file.hpp"
 #include "output/result_names.hpp"
 #include "parallel/parallel.hpp"
+#include "state/points.hpp"
 #include "state/restartable.hpp"
 #include "state/shared_fields.hpp"
 
@@ -155,7 +156,7 @@ void Simulation::slow_down(Real factor) {
 }
 
 void Simulation::slow_bodies(Real factor) {
-  if (bodies_) bodies_->slow_down(factor);
+  if (const auto& bodies = get<std::shared_ptr<RigidBodies>>()) bodies->slow_down(factor);
 }
 
 void Simulation::start_from(Simulation& relaxed) {
@@ -168,8 +169,9 @@ void Simulation::start_from(Simulation& relaxed) {
   };
   const std::vector<Vec> v = velocities(&nodes.v), w = velocities(turning);
   std::vector<std::array<Vec, 2>> of_bodies;
-  if (bodies_)
-    for (const RigidBody& b : bodies_->bodies()) of_bodies.push_back({b.v, b.omega});
+  const auto& bodies = get<std::shared_ptr<RigidBodies>>();
+  if (bodies)
+    for (const RigidBody& b : bodies->bodies()) of_bodies.push_back({b.v, b.omega});
   SavedState state;
   Archive save = Archive::saver(state);
   relaxed.keep(save);
@@ -179,7 +181,7 @@ void Simulation::start_from(Simulation& relaxed) {
   world_.energy = {};
   for (std::size_t i = 0; i < v.size(); ++i) nodes.v.set(static_cast<Index>(i), v[i]);
   for (std::size_t i = 0; i < w.size(); ++i) turning->set(static_cast<Index>(i), w[i]);
-  if (bodies_) bodies_->start_moving(of_bodies, world_);
+  if (bodies) bodies->start_moving(of_bodies, world_);
   for (const char* work : {"drive_work", "drive_work_of_rotations"})
     if (auto* field = dynamic_cast<Field<Real>*>(nodes.fields.find(work))) field->fill(0);
   stepper_->forget_first_step();

@@ -175,7 +175,7 @@ void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) 
 }  // namespace
 
 void Simulation::show_wall_forces() {
-  for (const auto& contact : contacts_) contact->show_forces(world_);
+  for (const auto& contact : contacts()) contact->show_forces(world_);
   for (auto* walls : world_.passes.all<WallForceReporter>()) walls->show_forces(world_);
   for (auto* filler : world_.passes.all<FieldFiller>()) filler->fill_fields(world_);
 }
@@ -185,11 +185,11 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   Sample s;
   s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by,
   s.energy = world_.energy;
-  if (bodies_) s.bodies = bodies_->reports(), s.body_motions = bodies_->motions(clock_);
+  if (bodies()) s.bodies = bodies()->reports(), s.body_motions = bodies()->motions(clock_);
   sample_parts(world_, model_, s);
   for (auto* watch : world_.passes.all<MomentumWatch>()) watch->look(s, world_);
   for (auto* watch : world_.passes.all<CurvatureWatch>()) watch->look(world_, clock_.cycle);
-  for (const auto& contact : contacts_) s.interfaces.push_back(contact->report());
+  for (const auto& contact : contacts()) s.interfaces.push_back(contact->report());
   for (const auto* nodes : world_.passes.all<const InterfaceReporter>())
     add_interface(nodes->report(), s.interfaces);
   for (const auto* walls : world_.passes.all<const WallForceReporter>())
@@ -204,8 +204,8 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   const auto index = places_of(wanted, p.id, p.size());
   for (const Id id : wanted)
     if (const Index i = index.at(id); i >= 0)
-      s.particles.push_back(particle_sample(world_, *neighbours_, clock_, i));
-  sample_nodes(model_.output.history_node, world_, bodies_.get(), clock_, s);
+      s.particles.push_back(particle_sample(world_, neighbours(), clock_, i));
+  sample_nodes(model_.output.history_node, world_, bodies(), clock_, s);
   return s;
 }
 

@@ -10,6 +10,7 @@
 #include "contact/cards.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "rigid/switch_cards.hpp"
+#include "sph/boundaries/injection.hpp"
 
 namespace courant {
 namespace {
@@ -150,7 +151,7 @@ class SceneWarnings {
 
   /// An inlet makes the masses itself.
   bool flows_in(std::size_t part) const {
-    const auto& inlets = s_.injections().inlets;
+    const auto& inlets = s_.get<Injections>().inlets;
     return std::any_of(inlets.begin(), inlets.end(),
                        [part](const Injection& inlet) { return inlet.part == static_cast<Index>(part); });
   }

@@ -1,6 +1,5 @@
 #pragma once
-// A deck as a running model: the one place where all physics folders meet. Programs that embed Courant start
-// here.
+// A deck as a running model. Programs that embed Courant start here.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -8,19 +7,14 @@
 #include <vector>
 
 #include "contact/contact.hpp"
-#include "elements/beam/beams.hpp"
-#include "elements/discrete/discrete.hpp"
-#include "elements/shell/shells.hpp"
-#include "elements/solid/solids.hpp"
+#include "extension/builders.hpp"
 #include "keyword/deck.hpp"
 #include "keyword/deck_record.hpp"
-#include "loads/loads.hpp"
 #include "model/conditions/relaxation.hpp"
 #include "model/model.hpp"
 #include "output/sample.hpp"
 #include "output/summary.hpp"
 #include "rigid/rigid.hpp"
-#include "sph/boundaries/injection.hpp"
 #include "sph/materials/materials.hpp"
 #include "sph/sph.hpp"
 #include "time/step.hpp"
@@ -60,26 +54,19 @@ class Simulation {
   World& world() { return world_; }
   const World& world() const { return world_; }
   Clock& clock() { return clock_; }
-  const SphSettings& sph() const { return sph_; }
-  bool has_particles() const { return neighbours_ != nullptr; }
-  const Neighbours& neighbours() const { return *neighbours_; }  ///< where there are particles
-  const std::vector<PartMaterial>& materials() const { return materials_; }
-  /// Of solids, of shells that deform and of beams, by index into the model's parts; null where a part has
-  /// neither.
-  const std::shared_ptr<StrengthLaw>& law_of_elements(Index part) const {
-    const auto k = static_cast<std::size_t>(part);
-    return solids_[k].law ? solids_[k].law : shells_[k].law ? shells_[k].law : beams_[k].law;
+  const SphSettings& sph() const { return get<SphSettings>(); }
+  bool has_particles() const { return lists() != nullptr; }
+  const Neighbours& neighbours() const { return *lists(); }  ///< where there are particles
+  const std::vector<PartMaterial>& materials() const { return get<std::vector<PartMaterial>>(); }
+  const std::vector<std::shared_ptr<Contact>>& contacts() const {
+    return get<std::vector<std::shared_ptr<Contact>>>();
   }
-  /// Of compression waves in elements at the start; 0: such a part has no law.
-  /// [L/T]
-  Real sound_speed_of_elements(Index part) const {
-    const auto k = static_cast<std::size_t>(part);
-    if (k >= solids_.size() || !law_of_elements(part)) return 0;
-    return solids_[k].law ? solids_[k].sound_speed() : law_of_elements(part)->sound_speed();
+  const RigidBodies* bodies() const { return get<std::shared_ptr<RigidBodies>>().get(); }
+  /// What builders left of a type.
+  template <class T>
+  const T& get() const {
+    return assembly_.get<T>();
   }
-  const std::vector<std::shared_ptr<Contact>>& contacts() const { return contacts_; }
-  const RigidBodies* bodies() const { return bodies_.get(); }
-  const Injections& injections() const { return injections_; }
   /// Why a run cannot go on until `end`: particles of inlets were made, and formulas of curves taken, up to
   /// ENDTIM. Empty where it can. [T]
   std::string why_not_until(Real end) const;
@@ -87,7 +74,7 @@ class Simulation {
   double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
   /// What the deck asks for in front of the run: another simulation of it, of RunPhase::relaxation, from
   /// which this one starts. app/relaxation.hpp.
-  const Relaxation& relaxation() const { return relaxation_; }
+  const Relaxation& relaxation() const { return get<Relaxation>(); }
   void slow_down(Real factor);    ///< all velocities times a factor
   void slow_bodies(Real factor);  ///< those of rigid bodies, without their nodes
   /// Takes the state of a relaxation: time begins with 0, velocities are those of the deck's start.
@@ -103,30 +90,11 @@ class Simulation {
 
  private:
   Simulation() = default;
-  void build_parts(Diagnostics& diagnostics);
-  void add_tied_contacts(Diagnostics& diagnostics);
-  void add_inner_faces(const std::vector<std::shared_ptr<Erosion>>& eroding);
-  void release_tables();
+  void build_world(const std::string& deck_path, Diagnostics& diagnostics);
   void note_read_seconds(double reading, double building);
-  void add_passes(Diagnostics& diagnostics);
-  void add_neighbours(Diagnostics& diagnostics);
-  void add_particle_passes(Diagnostics& diagnostics);
-  /// Of a deck without particles.
-  void report_what_needs_particles(Diagnostics& diagnostics);
-  void add_node_passes(Diagnostics& diagnostics);
-  void add_contacts_of_nodes(Diagnostics& diagnostics);
-  Real bulk_modulus(Index part) const;
-  void add_rotations();
-  void add_springs(Diagnostics& diagnostics);
-  bool moves_all_by_bodies() const;
-  void hold_massless_nodes(Diagnostics& diagnostics);
-  void add_loads(const Points& points, const BodyAcceleration& acceleration);
-  void add_ghosts(Real h, Diagnostics& diagnostics);
-  void add_prescribed_motions(Diagnostics& diagnostics);
-  void add_bodies();
+  void make_stepper();
+  Neighbours* lists() const { return get<std::shared_ptr<Neighbours>>().get(); }
   std::vector<PassNote> outputs(bool wanted) const;
-  Ranges reference_of_parts() const;
-  Real rest_energy() const;
 
   Deck deck_;
   DeckRecord record_;
@@ -134,23 +102,7 @@ class Simulation {
   Model model_;
   World world_;
   Clock clock_;
-  SphSettings sph_;
-  Injections injections_;
-  std::vector<PartMaterial> materials_;
-  std::vector<NodalLoad> nodal_loads_;
-  std::vector<Damping> damping_;
-  std::vector<SolidPart> solids_;           ///< by part of the model
-  std::vector<ShellPart> shells_;           ///< the same, of shells that deform
-  std::vector<BeamPart> beams_;             ///< the same
-  std::vector<SpringPart> springs_;         ///< until their passes are added
-  std::shared_ptr<Neighbours> neighbours_;  ///< null: no particles
-  std::shared_ptr<Relocation> mirrors_;     ///< null: none
-  std::vector<std::shared_ptr<Contact>> contacts_;
-  std::shared_ptr<RigidBodies> bodies_;
-  std::vector<GhostPlane> planes_;
-  std::vector<PassNote> left_out_;
-  Relaxation relaxation_;
-  StepRules rules_;
+  Assembly assembly_;  ///< what builders left
   std::shared_ptr<Guard> guard_;
   PassTimer timer_;
   double read_seconds_ = 0;

@@ -11,7 +11,7 @@ void Simulation::keep(Archive& archive) {
   auto restartables = restartables_of(world_);
   restartables.emplace_back("guard", guard_.get());
   restartables.emplace_back("stepper", stepper_.get());
-  if (neighbours_) neighbours_->keep(archive);
+  if (lists()) lists()->keep(archive);
   {
     const Archive::Group passes(archive, "passes");
     for (const auto& [name, restartable] : restartables) {
@@ -21,12 +21,12 @@ void Simulation::keep(Archive& archive) {
   }
   if (!archive.loading()) return;
   archive.stop_for_leftovers();
-  if (neighbours_) neighbours_->restore(world_, restartables);
+  if (lists()) lists()->restore(world_, restartables);
   for (const auto& [name, restartable] : restartables) restartable->loaded(world_);
   for (Exchanger* e : world_.passes.all<Exchanger>())
     e->exchange_all(world_);  // what `loaded` made anew, too
   if (!more_wait) return;
-  neighbours_->force_refresh();
+  lists()->force_refresh();
   // lists that are built anew now, earlier than in that run, put sums in another order
   changes_.push_back(
       "more particles wait in front of inlets than in the run so far: the last bits of what follows may "

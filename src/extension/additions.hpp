@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "extension/builders.hpp"
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "state/world.hpp"
@@ -16,27 +17,16 @@ namespace courant {
 /// ElementGroup::part of elements that belong to no *PART.
 inline constexpr Index no_part = -1;
 
-struct Addition {
-  std::string name;  ///< for messages
-  /// Reads its cards and adds passes, fields or element groups to the world. Called when particles, nodes,
-  /// elements, bodies and contacts are there, before stages are made; particles stand in the order of the
-  /// model. Faults go to the diagnostics.
-  std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build;
-  /// Nodes of its elements, indices into Model::nodes: they are in World::nodes then, whether shells and
-  /// solids use them or not; particles never are. Somebody has to give them mass. Empty: no nodes.
-  std::function<std::vector<Index>(const Deck&, const Model&)> nodes{};
-};
-
-std::vector<Addition>& additions();
-/// Those of all additions.
-std::vector<Index> added_nodes(const Deck& deck, const Model& model);
-
 struct RegisterAddition {
-  RegisterAddition(std::string name,
-                   std::function<void(const Deck&, const Model&, World&, Diagnostics&)> build,
-                   std::function<std::vector<Index>(const Deck&, const Model&)> nodes = {}) {
-    additions().push_back({std::move(name), std::move(build), std::move(nodes)});
-  }
+  using Build = std::function<void(const Deck&, const Model&, World&, Diagnostics&)>;
+  using FindNodes = std::function<std::vector<Index>(const Deck&, const Model&)>;
+  /// `name`: for messages.
+  /// `build` reads its cards and adds passes, fields or element groups to the world. Called when particles,
+  /// nodes, elements and bodies are there, before stages are made; particles stand in the order of the model.
+  /// Faults go to the diagnostics.
+  /// `nodes` of its elements, indices into Model::nodes: they are in World::nodes then, whether shells and
+  /// solids use them or not; particles never are. Something has to give them mass. Empty: no nodes.
+  RegisterAddition(std::string name, Build build, FindNodes nodes = {});
 };
 
 /// An ASCII history that a file adds.

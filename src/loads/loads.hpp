@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "extension/left_out.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
 #include "model/conditions/prescribed_motion.hpp"
@@ -83,6 +84,17 @@ std::vector<Damping> damping_of(const Deck& deck, const Model& model, const Worl
 /// f -= c m v, with the v of the middle of the kick. nullptr where there is none.
 std::shared_ptr<Constraint> make_damping(std::vector<Damping> damping, Points points, World& world);
 
+/// What acts on points, as the cards say.
+struct PointLoads {
+  std::vector<NodalLoad> nodal{};
+  std::vector<Damping> damping{};
+  Real relaxation_factor = 1;  ///< DRFCTR
+};
+/// Adds nodal forces, SPC and damping of points to the passes of `world`. `left_out`: gets a note for those
+/// that the deck does not ask for; null: it does not matter.
+void add_loads(const Points& points, const Deck& deck, const Model& model, const PointLoads& loads,
+               World& world, LeftOut* left_out);
+
 /// Of a relaxation: velocities times a factor in each step.
 std::shared_ptr<Drive> make_slow_points(Points points, Real factor);
 
@@ -91,5 +103,10 @@ std::shared_ptr<Drive> make_slow_points(Points points, Real factor);
 /// that are not there, nodes of rigid bodies that NSID names, normals, edges and motions without a direction
 /// or, in 2D, out of the plane, other kinds of friction, displacements that jump or do not begin with 0.
 bool add_rigid_walls(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics);
+
+/// Whether there is a rigid wall.
+struct RigidWallsThere {
+  bool any = false;
+};
 
 }  // namespace courant

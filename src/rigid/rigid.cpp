@@ -284,7 +284,7 @@ Real lightness(const RigidBody& b, const Nodes& nodes, const std::function<Real(
   return out;
 }
 
-WallBodies RigidBodies::wall_bodies(const World& world) {
+WallBodies RigidBodies::wall_bodies(World& world) {
   WallBodies out;
   out.of_node.assign(static_cast<std::size_t>(world.nodes.size()), -1);
   for (std::size_t k = 0; k < bodies_.size(); ++k)
@@ -325,6 +325,13 @@ WallBodies RigidBodies::wall_bodies(const World& world) {
   out.lighter = [this, &world](Index body) {
     return lightness(bodies_[static_cast<std::size_t>(body)], world.nodes,
                      [&](Index n) { return world.nodes.m[n]; });
+  };
+  out.turn = [this](Index body, const Vec& axis) {
+    const RigidBody& b = bodies_[static_cast<std::size_t>(body)];
+    return axis.dot(b.turning_by(axis, b.q));
+  };
+  out.take_mass = [this, &world](Index node, const Vec& position, Real mass, Real inertia) {
+    return add_mass_at(node, position, mass, inertia, world);
   };
   return out;
 }

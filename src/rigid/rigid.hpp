@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "base/rotation.hpp"
+#include "extension/part_values.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
 #include "model/conditions/prescribed_motion.hpp"
@@ -22,13 +23,6 @@
 #include "state/world.hpp"
 
 namespace courant {
-
-/// What *MAT_RIGID says about stiffness and mass, for shells and contact.
-struct RigidMaterial {
-  Real ro = 0;  ///< density [M/L3]
-  Real E = 0;   ///< Young's modulus [M/LT2]
-  Real pr = 0;  ///< Poisson ratio [-]
-};
 
 /// The *MAT_RIGID of a part (index into Model::parts); nothing if its material is another one or missing.
 std::optional<RigidMaterial> rigid_material(const Deck& deck, const Model& model, Index part);
@@ -145,7 +139,7 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
               Diagnostics& diagnostics);
   /// For contact with their faces. Refers to this object.
-  WallBodies wall_bodies(const World& world);
+  WallBodies wall_bodies(World& world);
   /// Adds to what moves a body in the coming step, after forces were summed; what holds the body takes its
   /// part. [ML/T2], [ML2/T2]
   void push(std::size_t body, const Vec& force, const Vec& moment);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <variant>
 
+#include "extension/left_out.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
@@ -161,10 +162,6 @@ std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model,
                                            Real reach, World& world, Diagnostics& diagnostics);
 
 /// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
-struct PassNote {
-  std::string name;
-  std::string reason;
-};
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
                                      std::shared_ptr<Neighbours> neighbours);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What contact has to know of the rigid bodies whose faces it touches.
+// What contact, ties and springs have to know of the rigid bodies that they act on.
 #include <functional>
 #include <vector>
 
@@ -27,6 +27,12 @@ struct WallBodies {
   /// How much larger the kinetic energy of a body can be by the masses of its nodes than it is: above 1 where
   /// its mass or inertia is given, and small. [-]
   std::function<Real(Index body)> lighter;
+
+  /// By how much the angular velocity of a body changes about an axis for a moment about it. [1/ML2]
+  std::function<Real(Index body, const Vec& axis)> turn;
+  /// Gives the body of a node, at a position, the mass and inertia of nodes that are tied to its faces; false
+  /// where its mass is given. [L], [M], [ML2]
+  std::function<bool(Index node, const Vec& position, Real mass, Real inertia)> take_mass;
 
   Index body(Index node) const { return of_node.empty() ? -1 : of_node[static_cast<std::size_t>(node)]; }
 };

@@ -46,4 +46,12 @@ std::vector<const FieldSet*> World::sets() const {
   return out;
 }
 
+bool moves_all_by_bodies(const World& world) {
+  return world.particles.size() == 0 &&
+         std::all_of(world.groups.begin(), world.groups.end(), [](const auto& group) {
+           return sum(group->size(), [&](Index e) { return group->mass[e]; }) == 0 || group->corners() == 1 ||
+                  !group->pushes;
+         });
+}
+
 }  // namespace courant

@@ -86,6 +86,9 @@ struct World {
   PassList passes;  ///< those the deck asks for
 };
 
+/// Whether nothing but bodies, springs and lumped masses moves.
+bool moves_all_by_bodies(const World& world);
+
 /// Per-part and per-interface sums for the histories; filled on request by whoever owns them.
 struct InterfaceForce {
   Id id = 0;

@@ -4,11 +4,11 @@
 
 #include <stdexcept>
 
-#include "app/skin.hpp"
+#include "loads/point_motion.hpp"
 #include "model/build_model.hpp"
 #include "sph/core/pair_passes.hpp"
 #include "sph/materials/materials.hpp"
-#include "time/point_motion.hpp"
+#include "sph/skin.hpp"
 
 namespace courant::benchmarks {
 

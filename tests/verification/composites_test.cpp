@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/shell/shells.hpp"
 #include "free_patches.hpp"
 #include "laminates.hpp"
 #include "same_bits.hpp"

@@ -14,9 +14,6 @@ struct TiedOptions {
   std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
   WallBodies bodies{};  ///< whose nodes and faces may be tied
   Real tssfac = 0.9;
-  /// Tells the rigid body of a node what it gets at a place from nodes that are tied to its faces; false
-  /// where its mass is given. [L], [M], [ML2]
-  std::function<bool(Index node, const Vec& place, Real mass, Real inertia)> give_body{};
   bool mass_grows = false;  ///< mass scaling may add some in the run
 };
 

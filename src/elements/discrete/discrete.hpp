@@ -43,16 +43,10 @@ void add_part_masses(const Deck& deck, const Model& model, World& world, Diagnos
 /// Mass of a node that has none and is held, so that forces over it are numbers. [M]
 inline constexpr Real mass_of_held = 1e-200;
 
-/// What moves the ends of springs besides their masses.
-struct SpringBodies {
-  WallBodies walls;
-  /// By how much the angular velocity of a body changes about an axis for a moment about it. [1/ML2]
-  std::function<Real(Index body, const Vec& axis)> turn;
-};
-
-/// Adds the forces of springs to the passes of `world`, once bodies and masses are there. `longest`: a step
+/// Adds the forces of springs to the passes of `world`, once bodies and masses are there. `bodies`: that ends
+/// belong to. `longest`: a step
 /// that is taken where springs ask for none. Torsional springs on nodes that do not turn are refused.
-void add_discrete_passes(const Deck& deck, std::vector<SpringPart> parts, SpringBodies bodies, Real tssfac,
+void add_discrete_passes(const Deck& deck, std::vector<SpringPart> parts, WallBodies bodies, Real tssfac,
                          Real longest, World& world, Diagnostics& diagnostics);
 
 /// A spring or damper at t^n.

@@ -162,7 +162,7 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
 /// 1 - f^2.
 class SpringLimit : public TimeLimit {
  public:
-  SpringLimit(const Deck& deck, std::vector<std::shared_ptr<SpringForces>> springs, SpringBodies bodies,
+  SpringLimit(const Deck& deck, std::vector<std::shared_ptr<SpringForces>> springs, WallBodies bodies,
               Real tssfac, Real longest, World& world, Diagnostics& diagnostics)
       : springs_(std::move(springs)),
         bodies_(std::move(bodies)),
@@ -177,7 +177,7 @@ class SpringLimit : public TimeLimit {
         for (Index e = 0; e < group->size(); ++e) {
           const Index n = group->node.data(c)[e];
           node_of_others[static_cast<std::size_t>(n)] = 1;
-          if (const Index b = bodies_.walls.body(n); b >= 0) bodies_of_others.insert(b);
+          if (const Index b = bodies_.body(n); b >= 0) bodies_of_others.insert(b);
         }
     }
     std::vector<Index> slot_of_node(static_cast<std::size_t>(world.nodes.size()) * 2, -1);
@@ -186,7 +186,7 @@ class SpringLimit : public TimeLimit {
       const SpringPart& part = springs_[p]->part();
       for (Index e = 0; e < part.group->size(); ++e)
         for (int c = 0; c < (part.grounded[static_cast<std::size_t>(e)] ? 1 : 2); ++c) {
-          const Index n = part.group->node.data(c)[e], b = bodies_.walls.body(n);
+          const Index n = part.group->node.data(c)[e], b = bodies_.body(n);
           check_turns(deck, part, e, n, b, world, diagnostics);
           Index& slot = b >= 0 ? slot_of_body[static_cast<std::size_t>(b)]
                                : slot_of_node[static_cast<std::size_t>(2 * n + part.turns)];
@@ -250,7 +250,7 @@ class SpringLimit : public TimeLimit {
     const Vec along = springs.direction(end.element);
     if (springs.part().turns)
       return end.body >= 0 ? bodies_.turn(end.body, along) : 1 / (*inertia_)[end.node];
-    return end.body >= 0 ? bodies_.walls.give(end.body, world.nodes.x.vec(end.node), along)
+    return end.body >= 0 ? bodies_.give(end.body, world.nodes.x.vec(end.node), along)
            : world.nodes.m[end.node] > mass_of_held ? 1 / world.nodes.m[end.node]
                                                     : 0;
   }
@@ -264,7 +264,7 @@ class SpringLimit : public TimeLimit {
   }
 
   std::vector<std::shared_ptr<SpringForces>> springs_;
-  SpringBodies bodies_;
+  WallBodies bodies_;
   Real tssfac_, longest_;
   const Field<Real>* inertia_;
   std::vector<End> ends_;     ///< of a spring one after the other
@@ -273,7 +273,7 @@ class SpringLimit : public TimeLimit {
 
 }  // namespace
 
-void add_discrete_passes(const Deck& deck, std::vector<SpringPart> parts, SpringBodies bodies, Real tssfac,
+void add_discrete_passes(const Deck& deck, std::vector<SpringPart> parts, WallBodies bodies, Real tssfac,
                          Real longest, World& world, Diagnostics& diagnostics) {
   std::vector<std::shared_ptr<SpringForces>> springs;
   for (SpringPart& part : parts)

@@ -7,6 +7,7 @@
 #include "generate/generate.hpp"
 #include "parallel/parallel.hpp"
 #include "small_scene.hpp"
+#include "sph/boundaries/injection.hpp"
 
 namespace courant {
 namespace {
@@ -285,8 +286,8 @@ TEST(Injection, ByRadiusAndByVolumeFlow) {
   const auto c = test::build_deck(scene.text());
   ASSERT_TRUE(a && b && c);
   for (const auto* s : {&a, &b, &c}) {
-    ASSERT_EQ((*s)->injections().inlets.size(), 1u);
-    const Injection& inlet = (*s)->injections().inlets[0];
+    ASSERT_EQ((*s)->get<Injections>().inlets.size(), 1u);
+    const Injection& inlet = (*s)->get<Injections>().inlets[0];
     EXPECT_NEAR(inlet.area * inlet.speed(), 2 * pi * 0.25, 1e-12);
     EXPECT_NEAR((inlet.v - Vec(0, 0, -2)).norm(), 0, 1e-12);
     EXPECT_EQ(inlet.places.size(), 81u);  // of the lattice points within five spacings

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "../sph/cloud.hpp"
+#include "loads/point_motion.hpp"
 #include "state/reports.hpp"
-#include "time/point_motion.hpp"
 #include "time/step.hpp"
 
 using namespace courant;

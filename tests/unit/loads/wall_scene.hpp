@@ -5,8 +5,8 @@
 #include "../keyword/decks_in_memory.hpp"
 #include "../sph/cloud.hpp"
 #include "loads/loads.hpp"
+#include "loads/point_motion.hpp"
 #include "state/reports.hpp"
-#include "time/point_motion.hpp"
 #include "time/step.hpp"
 
 namespace courant::test {

@@ -1,5 +1,5 @@
 #include "rigid/rigid.hpp"
-#include "app/build_nodes.hpp"
+#include "elements/build_nodes.hpp"
 
 #include <gtest/gtest.h>
 

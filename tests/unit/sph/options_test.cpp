@@ -6,8 +6,8 @@
 #include "cloud.hpp"
 #include "liquid.hpp"
 #include "loads/loads.hpp"
+#include "loads/point_motion.hpp"
 #include "sph/core/fields.hpp"
-#include "time/point_motion.hpp"
 #include "time/step.hpp"
 
 using namespace courant;

@@ -6,9 +6,9 @@
 
 #include "cloud.hpp"
 #include "liquid.hpp"
+#include "loads/point_motion.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/options/frozen_pairs.hpp"
-#include "time/point_motion.hpp"
 #include "time/step.hpp"
 
 using namespace courant;

@@ -10,8 +10,8 @@
 #include "cloud.hpp"
 #include "laws/strength/strength.hpp"
 #include "liquid.hpp"
+#include "loads/point_motion.hpp"
 #include "sph/core/fields.hpp"
-#include "time/point_motion.hpp"
 #include "time/step.hpp"
 
 using namespace courant;

@@ -5,7 +5,7 @@
 #include "../sph/cloud.hpp"
 #include "base/run_error.hpp"
 #include "loads/loads.hpp"
-#include "time/point_motion.hpp"
+#include "loads/point_motion.hpp"
 
 using namespace courant;
 using courant::test::Cloud;

@@ -1,4 +1,4 @@
-#include "time/point_motion.hpp"
+#include "loads/point_motion.hpp"
 
 #include <algorithm>
 

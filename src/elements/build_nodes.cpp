@@ -1,4 +1,4 @@
-#include "app/build_nodes.hpp"
+#include "elements/build_nodes.hpp"
 
 namespace courant {
 

@@ -1,0 +1,84 @@
+// What rigid bodies and joints bring into a world.
+#include "extension/builders.hpp"
+#include "extension/part_values.hpp"
+#include "loads/loads.hpp"
+#include "rigid/body_cards.hpp"
+#include "rigid/build_joints.hpp"
+#include "rigid/joint_stiffness.hpp"
+#include "rigid/nodal_bodies.hpp"
+#include "rigid/rigid.hpp"
+#include "rigid/switched_parts.hpp"
+#include "rigid/time_limit.hpp"
+
+namespace courant {
+
+namespace {
+
+void find_rigid_parts(const Deck& deck, Model& model, RigidParts& rigid, PartKinds&) {
+  for (std::size_t k = 0; k < model.parts.size(); ++k) {
+    rigid.of_part.push_back(rigid_material(deck, model, static_cast<Index>(k)));
+    model.parts[k].rigid = rigid.of_part.back().has_value();
+  }
+}
+
+void find_nodes(const Deck& deck, const Model& model, MoreNodes& more) {
+  Diagnostics reported_with_bodies;
+  for (const auto& [part, nodes] : extra_nodes(deck, model, reported_with_bodies))
+    for (const ExtraNode& extra : nodes) more.nodes.push_back(extra.node);
+  for (const NodalBody& body : nodal_bodies(deck, model, reported_with_bodies)) {
+    more.nodes.insert(more.nodes.end(), body.nodes.begin(), body.nodes.end());
+    if (body.output_node >= 0) more.nodes.push_back(body.output_node);
+  }
+}
+
+void build_bodies(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
+                  std::shared_ptr<RigidBodies>& bodies, WallBodies& walls, UnweighedNodes& unweighed,
+                  StepShare& share, Movers& movers) {
+  bodies = build_rigid_bodies(deck, model, world, diagnostics);
+  if (!bodies) return;
+  walls = bodies->wall_bodies(world);
+  unweighed.nodes = bodies->unweighed_nodes();
+  share.value = bodies->step_share();
+  movers.any |= bodies->any_moves();
+}
+
+void drive_bodies(const Deck& deck, const Model& model, Diagnostics& diagnostics,
+                  const std::vector<PrescribedMotion>& motions, std::shared_ptr<RigidBodies>& bodies) {
+  RigidBodies none({});
+  (bodies ? *bodies : none).follow(motions, deck, model, diagnostics);
+}
+
+void add_passes(const Model& model, World& world, LeftOut& left_out,
+                const std::shared_ptr<RigidBodies>& bodies, BodyPasses& passes) {
+  if (!bodies || !bodies->any_moves())
+    return left_out.add("rigid bodies", bodies ? "all are held in every direction" : "no *MAT_RIGID");
+  passes.move = true;
+  bodies->set_loads(BodyAcceleration(model.body_loads));
+  add_body_passes(world, bodies);
+  if (moves_all_by_bodies(world)) world.passes.add(make_body_time_limit(bodies, model.endtim));
+}
+
+void join_bodies(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
+                 LeftOut& left_out, const std::shared_ptr<RigidBodies>& bodies) {
+  if (!add_joint_stiffness(deck, model, bodies, world, diagnostics))
+    left_out.add("joint stiffness", "no *CONSTRAINED_JOINT_STIFFNESS");
+  if (!add_joints(deck, model, bodies, world, diagnostics)) left_out.add("joints", "no *CONSTRAINED_JOINT");
+}
+
+void check(const Deck& deck, const World& world, Diagnostics& diagnostics,
+           const std::shared_ptr<RigidBodies>& bodies, RestEnergy& energy) {
+  check_switches(deck, world, diagnostics);
+  if (bodies) energy.value += bodies->rest_energy();
+}
+
+const RegisterBuilder kinds(BuildPhase::parts, "rigid parts", find_rigid_parts, Errors::go_on);
+const RegisterBuilder nodes(BuildPhase::nodes, "nodes of bodies", find_nodes, Errors::go_on);
+const RegisterBuilder bodies(BuildPhase::bodies, "rigid bodies", build_bodies, Errors::go_on);
+const RegisterBuilder drives(BuildPhase::conditions, "driven bodies", drive_bodies, Errors::go_on);
+const RegisterBuilder passes(BuildPhase::body_passes, "passes of bodies", add_passes, Errors::go_on);
+const RegisterBuilder joints(BuildPhase::joints, "joints", join_bodies, Errors::go_on);
+const RegisterBuilder checks(BuildPhase::checks, "switched parts", check);
+
+}  // namespace
+
+}  // namespace courant
