@@ -146,7 +146,7 @@ void finish_masses(const Deck& deck, const Model& model, World& world, Diagnosti
   start_rotations(model, nodes.of_model, world);
 }
 
-void clear_forces(World& world, LeftOut& left_out, const BodyPasses& bodies) {
+void clear_forces(World& world, LeftOut& left_out, const BodyPasses& bodies, const Additions&) {
   if (bodies.move || !world.groups.empty())
     world.passes.add(make_clear_forces(points_of(world.nodes)));
   else

@@ -20,7 +20,7 @@ RegisterAddition::RegisterAddition(std::string name, Build build, FindNodes node
   world_builders().push_back({BuildPhase::body_passes,
                               std::move(name),
                               true,
-                              {},
+                              {typeid(Additions)},
                               {typeid(BodyPasses)},
                               [build = std::move(build)](Assembly& all) {
                                 build(all.of<Deck>(), all.of<Model>(), all.of<World>(),

@@ -77,6 +77,9 @@ struct BodyPasses {
   bool move = false;  ///< some body can
 };
 
+/// Filled by additions, which may bring element groups.
+struct Additions {};
+
 /// m c^2 of everything: far above all energies of a scene, and known before anything moves. [ML2/T2]
 struct RestEnergy {
   Real value = 0;
