@@ -1,20 +1,24 @@
 #!/usr/bin/env bash
 # From a bare Debian 12 to tested: installs what is missing, builds, runs every test. The last line: N passed, N failed, N skipped.
-#   bash tests/run.sh [--warnings-as-errors] [--again] [options of ctest, such as -R NAME]
+#   bash tests/run.sh [--quick] [--warnings-as-errors] [--again] [options of ctest, such as -R NAME]
+# --quick leaves out the tests of tests/slow_tests.txt: some two minutes on two cores instead of ten.
 # When nothing has changed since all tests passed here, it says so and stops; --again runs them all the same.
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/lib/setup.sh"
 options=(-DCOURANT_TESTS=ON)
 again=${CI:-}
+quick=
 while true; do
   case ${1:-} in
     --warnings-as-errors) options+=(-DCOURANT_WARNINGS_AS_ERRORS=ON); shift ;;
     --again) again=yes; shift ;;
+    --quick) quick=yes; shift ;;
     *) break ;;
   esac
 done
 cd "$project" || stop "the folder $project cannot be entered."
 
+[ -z "$quick" ] || set -- -E "$(paste -sd'|' tests/slow_tests.txt)" "$@"
 install_packages "${build_packages[@]}" "${picture_packages[@]}" "${test_packages[@]}"
 settled=yes  # configure again only if something changes
 for option in "${options[@]}"; do
