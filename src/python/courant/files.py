@@ -96,7 +96,12 @@ def _is_device(file: Path) -> bool:
 
 def _write_through(file: Path, data: bytes) -> None:
     """To a device or pipe that is there."""
-    descriptor = os.open(file, os.O_WRONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+    try:
+        descriptor = os.open(file, os.O_WRONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+    except OSError as fault:
+        if fault.errno != errno.ENXIO:
+            raise
+        raise _fault("it is a pipe without a reader") from fault
     fcntl.fcntl(descriptor, fcntl.F_SETFL, fcntl.fcntl(descriptor, fcntl.F_GETFL) & ~os.O_NONBLOCK)
     with open(descriptor, "wb") as stream:
         stream.write(data)
