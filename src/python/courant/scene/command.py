@@ -25,13 +25,13 @@ def read_model(path: str, overrides: Mapping[str, str], diagnostics: Diagnostics
     return reader.read(root) if root is not None else Model()
 
 
-def write_deck(model: Model, name: str, deck: str, diagnostics: Diagnostics) -> bool:
+def write_deck(model: Model, name: str, deck: str, diagnostics: Diagnostics, of_python: bool = False) -> bool:
     """False, with messages and no file written or changed, where the model is wrong or the file cannot be written."""
     for file in model.files:
         if os.path.exists(file) and os.path.exists(deck) and os.path.samefile(file, deck):
             diagnostics.error(deck, "the deck would take the place of the scene, or of a base of it", "give the deck another name: -o DECK.k")
             return False
-    text = deck_text(model, name, diagnostics) if diagnostics.ok else b""
+    text = deck_text(model, name, diagnostics, of_python) if diagnostics.ok else b""
     if not text:
         return False
     try:

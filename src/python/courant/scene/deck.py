@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..diagnostics import Diagnostics
-from .model import LARGEST_ID, Fault, Model, Part, Variables
+from .model import LARGEST_ID, Fault, Lattice, Model, Part, Variables
 from .numbers import number_text, numbers, whole_numbers
 from .places import Axis, lattice_points, values_at
 
@@ -88,6 +88,7 @@ class Placer:
                 fault.tell(self.diagnostics)
                 break
             # MASS > 0 is a mass, < 0 a volume
+            self._compare(part, lattice, placed.size() - placed.particles())
             placed.masses.append((placed.size() - placed.particles(), part.density * lattice.volume if part.density > 0 else -lattice.volume))
         if not part.plates and not placed.particles() and self.diagnostics.ok:
             self.diagnostics.error(part.where, f"part {part.id} has no particles: 'where' leaves none", "a particle is kept where the expression is > 0")
@@ -99,6 +100,16 @@ class Placer:
         if last > LARGEST_ID:
             self.diagnostics.error(part.where, f"part {part.id}: ids reach {last}, the format ends at {LARGEST_ID}")
         return placed
+
+    def _compare(self, part: Part, lattice: Lattice, count: int) -> None:
+        """Particles that fill a shape alone hold what it holds."""
+        if len(lattice.solids) != 1 or lattice.where or lattice.without or not count:
+            return
+        whole = lattice.solids[0].shape.volume()
+        share = count * lattice.volume / whole
+        if abs(share - 1) > 0.01:
+            self.diagnostics.warning(part.where, f"the particles of '{lattice.solids[0].shape.name or part.title}' hold {share:.4g} of its volume {whole:.4g}",
+                                     "a finer spacing follows the shape more closely")
 
     def _start_at(self, part: Part) -> None:
         if part.first_id < self.node or (part.plates and part.first_id < self.shell):
@@ -152,13 +163,24 @@ def _fits(value: float) -> bool:
     return bool(text) and abs(float(text) - value) <= 1e-6 * abs(value)
 
 
+def _inertia_text(part: Part) -> str:
+    """The further cards of *PART_INERTIA."""
+    if not part.inertia:
+        return ""
+    mass, centre, tensor = part.inertia
+    cards = [(("xc", "yc", "zc", "tm"), [*centre, mass]),
+             (("ixx", "ixy", "ixz", "iyy", "iyz", "izz"), [tensor[a, b] for a, b in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))]),
+             (("vtx", "vty", "vtz"), part.velocity or (0.0, 0.0, 0.0))]
+    return "".join(_heading(names, 10) + "".join(number_text(float(v), 10).rjust(10) for v in values) + "\n" for names, values in cards)
+
+
 def _parts_text(parts: list[Part]) -> str:
     out = ""
     for part in parts:
-        out += f"*PART\n$# heading\n{part.title}\n$#     pid     secid       mid     eosid      hgid\n"
-        out += f"{part.id:10}{part.section:10}{part.material:10}{part.eos:10}{part.hourglass:10}\n"
+        out += f"*PART{'_INERTIA' if part.inertia else ''}\n$# heading\n{part.title}\n$#     pid     secid       mid     eosid      hgid\n"
+        out += f"{part.id:10}{part.section:10}{part.material:10}{part.eos:10}{part.hourglass:10}\n" + _inertia_text(part)
     for part in parts:
-        if part.velocity is None:
+        if part.velocity is None or part.inertia:
             continue
         wide = not all(_fits(v) for v in part.velocity)  # + behind the keyword: fields of 20 columns
         width = 20 if wide else 10
@@ -190,15 +212,16 @@ def _long_lines(columns: list[np.ndarray]) -> bytes:
     return np.hstack([*columns, np.full((len(columns[0]), 1), _END, dtype=np.uint8)]).tobytes()
 
 
-def deck_text(model: Model, name: str, diagnostics: Diagnostics) -> bytes:
-    """The whole deck; `name` of the scene goes into its first comment. Ids are consecutive within a part; ids that clash or do not fit their columns are
+def deck_text(model: Model, name: str, diagnostics: Diagnostics, of_python: bool = False) -> bytes:
+    """The whole deck; `name` of the file of the scene, in YAML or Python, goes into its first comment. Ids are consecutive within a part; ids that clash or do not fit their columns are
     errors, and the text is then empty."""
     before = diagnostics.errors
     placer = Placer(model.variables, diagnostics)
     placed = [placer.place(part) for part in model.parts]
     if diagnostics.errors > before:
         return b""
-    head = f"$ Written by `courant generate {name}`: change the scene, not this file.\n$ Parameters:\n"
+    by = f"courant.Scene in {name}" if of_python else f"`courant generate {name}`"
+    head = f"$ Written by {by}: change the scene, not this file.\n$ Parameters:\n"
     head += "".join(f"$   {parameter} = {number_text(value)}\n" for parameter, value in model.parameters) + "$ Parts:\n"
     for part, one in zip(model.parts, placed):
         head += f"$   {part.id} {part.title}: " + (f"{one.particles()} particles\n" if one.particles() else f"{len(one.shells)} shells\n")

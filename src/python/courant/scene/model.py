@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -45,6 +45,18 @@ class Lattice:
 
 
 @dataclass
+class Near:
+    """What is inside a closed shape or nearer to it than a margin [L]."""
+
+    shape: Any
+    margin: float = 0.0
+
+    def contains(self, x: np.ndarray) -> np.ndarray:
+        inside: np.ndarray = self.shape.contains(x, self.margin)
+        return inside
+
+
+@dataclass
 class Plate:
     """A parallelogram of four-noded shells, so many along its edges."""
 
@@ -72,17 +84,6 @@ class Plate:
         return min(float(np.linalg.norm(edge)) / n for edge, n in zip((self.edge1, self.edge2), self.n))
 
 
-class Faces(Protocol):
-    """Shells of any other origin: a triangulated surface, a mesh, a line in the plane."""
-
-    def nodes(self) -> np.ndarray: ...
-
-    def shells(self) -> np.ndarray: ...
-
-    @property
-    def side(self) -> float: ...
-
-
 @dataclass
 class Part:
     """What a *PART and the elements of it say."""
@@ -100,7 +101,8 @@ class Part:
     merge: bool = False  # plates of the part share the nodes they have in common
     first_id: int = 0  # of nodes and elements; 0: the next free one
     lattices: list[Lattice] = field(default_factory=list)
-    plates: list[Faces] = field(default_factory=list)
+    plates: list[Any] = field(default_factory=list)  # Plate, Shape: nodes(), shells(), side
+    inertia: tuple[float, np.ndarray, np.ndarray] | None = None  # of a rigid part: mass, centre, tensor about it, for *PART_INERTIA
     where: Location = field(default_factory=Location)
 
 

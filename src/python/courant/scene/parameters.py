@@ -30,6 +30,7 @@ class ParameterReader(NodeReader):
     def __init__(self, path: str, overrides: Mapping[str, str], diagnostics: Diagnostics) -> None:
         super().__init__(path, diagnostics)
         self.overrides = overrides
+        self.folder = os.path.dirname(path)  # where paths of the scene begin
         self.bases: list[Base] = []
         self.loading: list[str] = []  # the scene and the bases on the way to the file that is read
         self.parameters: list[tuple[str, float]] = []  # in the order of the file, after overrides
