@@ -21,7 +21,7 @@ $#  endtim    endcyc     dtmin    endeng    endmas     nosol
 ${end:10}         0         0         0     1.0e8         0
 *CONTROL_TIMESTEP
 $#  dtinit    tssfac
-         0       0.9
+         0${tssfac:10}
 *CONTROL_SPH
 $#    ncbs     boxid        dt      idim
          1         0    1.0e20${dim:10}
@@ -175,7 +175,7 @@ class Basin:
         """Of the cards."""
         return {"end": self.end, "dim": self.dim, "c0": self.sound_speed, "rho0": self.density, "pc": -1e20 if self.tension else 0.0,
                 "q": max(self.friction, 1e-20),  # 0 would be the default
-                "output": self.output, "g": self.gravity, "t": self.thickness, "touch": 0.9999 * self.spacing,
+                "output": self.output, "g": self.gravity, "t": self.thickness, "tssfac": self.step_factor, "touch": 0.9999 * self.spacing,
                 "sfsb": 1000.0 if self.dim == 2 and not self.whole_depth else 1.0}  # in 2D walls of a box are narrow strips
 
     @property
@@ -191,6 +191,11 @@ class Basin:
     @property
     def friction(self) -> float:
         return self.viscosity if self.viscosity is not None else 0.05 if self.mirrors else 0.1
+
+    @property
+    def step_factor(self) -> float:
+        """TSSFAC: particles ring between a mirror and their images at 0.9, and energy comes from nowhere."""
+        return 0.5 if self.mirrors else 0.9
 
     @property
     def thickness(self) -> float:
