@@ -60,7 +60,7 @@ def _digits(values: np.ndarray, count: int) -> np.ndarray:
     out = np.empty((len(values), 3 * chunks), dtype=np.uint8)
     rest = values
     for k in range(chunks - 1, -1, -1):
-        above = rest // 1000 if k else 0
+        above = rest // 1000 if k else np.zeros_like(rest)
         out[:, 3 * k : 3 * k + 3] = _TRIPLES[rest - above * 1000]
         rest = above
     return out[:, 3 * chunks - count :]

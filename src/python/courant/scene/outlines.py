@@ -144,7 +144,8 @@ def _path(d: str) -> list[tuple[np.ndarray, bool]]:
     """M, L, H, V, C, Q and Z of a path, large and small."""
     tokens = re.findall(r"[A-Za-z]|" + _NUMBER.pattern, d)
     out: list[tuple[np.ndarray, bool]] = []
-    here, start, points, command, k = np.zeros(2), np.zeros(2), [], "", 0
+    here, start, command, k = np.zeros(2), np.zeros(2), "", 0
+    points: list[np.ndarray] = []
 
     def take(count: int) -> np.ndarray:
         nonlocal k

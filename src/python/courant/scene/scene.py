@@ -31,14 +31,13 @@ from .shape_reader import DataNode
 
 Number = Union[float, str]  # also an expression of the scene's parameters: "height / n"
 Point = Sequence[Number]  # two components in the plane, three in space
-_PACKAGE = str(Path(__file__).resolve().parents[1])
 _RESOLVER = yaml.resolver.Resolver()
 
 
 def _caller() -> Mark:
     """Where the call into this package stands."""
     frame = sys._getframe(1)
-    while frame.f_back and frame.f_code.co_filename.startswith(_PACKAGE):
+    while frame.f_back and str(frame.f_globals.get("__name__", "")).partition(".")[0] == "courant":
         frame = frame.f_back
     return Mark(path.relpath(frame.f_code.co_filename) if path.isabs(frame.f_code.co_filename) else frame.f_code.co_filename, frame.f_lineno)
 
@@ -76,7 +75,7 @@ class Scene:
         `wall_method`: "mirrors", "contact" or "mixed", the box as mirrors and shapes by contact; `explain` tells what is taken for what is left out."""
         mark = _caller()
         self._path, self._folder = mark.name, ""
-        self._name, self._overrides, self._mark = path.basename(mark.name), dict[str, str](), mark
+        self._name, self._overrides, self._of_python = path.basename(mark.name), dict[str, str](), True
         water = {"spacing": spacing, "density": density, "sound_speed": sound_speed, "viscosity": viscosity, "tension": tension, "velocity": velocity,
                  "pressure": pressure}
         self._root = _node({}, mark)
@@ -94,7 +93,7 @@ class Scene:
         """The scene of a YAML file, with other values for some of its parameters. Raises CourantError."""
         scene = cls.__new__(cls)
         scene._path = fspath(file)
-        scene._folder, scene._name, scene._mark = path.dirname(scene._path), path.basename(scene._path), None
+        scene._folder, scene._name, scene._of_python = path.dirname(scene._path), path.basename(scene._path), False
         scene._overrides = {name: value if isinstance(value, str) else shortest(float(value)) for name, value in parameters.items()}
         diagnostics = Diagnostics()
         try:
@@ -151,7 +150,7 @@ class Scene:
         from .deck import deck_text
 
         diagnostics = Diagnostics()
-        text = deck_text(self._model(diagnostics), self._name, diagnostics, self._mark is not None)
+        text = deck_text(self._model(diagnostics), self._name, diagnostics, self._of_python)
         self._raise(diagnostics)
         return text.decode("utf-8", "surrogateescape")
 
@@ -159,7 +158,7 @@ class Scene:
         """Writes the deck, and tells on standard error what was repaired. Raises CourantError."""
         diagnostics = Diagnostics()
         model = self._model(diagnostics)
-        write_deck(model, self._name, fspath(file), diagnostics, self._mark is not None)
+        write_deck(model, self._name, fspath(file), diagnostics, self._of_python)
         self._raise(diagnostics)
         sys.stderr.write(diagnostics.text())
         return Path(file)

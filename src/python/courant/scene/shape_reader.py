@@ -58,7 +58,7 @@ class ShapeReader(LatticeReader):
             self.diagnostics.note(self.at(node), f"{shape.name}: {note}")
         return shape
 
-    def _refuse(self, node: Node, message: str, hint: str = "") -> None:
+    def _refuse(self, node: Node, message: str, hint: str = "") -> Any:  # None, for those that return a shape
         self.error(node, message, hint)
 
     def _made(self, node: Node, kind: str, spacing: float) -> Shape | None:
