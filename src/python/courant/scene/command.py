@@ -9,7 +9,7 @@ from pathlib import Path
 from ..diagnostics import Diagnostics
 from ..files import OutputError, write_file
 from ..terminal import EXIT_INPUT, EXIT_OK, Parser, say
-from .deck import deck_text
+from .deck import deck_pieces
 from .model import Model
 from .reader import SceneReader
 
@@ -31,11 +31,11 @@ def write_deck(model: Model, name: str, deck: str, diagnostics: Diagnostics, of_
         if os.path.exists(file) and os.path.exists(deck) and os.path.samefile(file, deck):
             diagnostics.error(deck, "the deck would take the place of the scene, or of a base of it", "give the deck another name: -o DECK.k")
             return False
-    text = deck_text(model, name, diagnostics, of_python) if diagnostics.ok else b""
-    if not text:
+    pieces = deck_pieces(model, name, diagnostics, of_python) if diagnostics.ok else []
+    if not pieces:
         return False
     try:
-        write_file(Path(deck), text, named=True)
+        write_file(Path(deck), pieces, named=True)
     except OutputError as fault:
         reason, _, _ = str(fault).removeprefix(f"cannot write '{deck}': ").partition("\n")
         diagnostics.error(deck, f"the deck cannot be written: {reason}", "name a file that can be written, in a folder that exists: -o DECK.k")

@@ -212,14 +212,14 @@ def _long_lines(columns: list[np.ndarray]) -> bytes:
     return np.hstack([*columns, np.full((len(columns[0]), 1), _END, dtype=np.uint8)]).tobytes()
 
 
-def deck_text(model: Model, name: str, diagnostics: Diagnostics, of_python: bool = False) -> bytes:
-    """The whole deck; `name` of the file of the scene, in YAML or Python, goes into its first comment. Ids are consecutive within a part; ids that clash or do not fit their columns are
-    errors, and the text is then empty."""
+def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bool = False) -> list[bytes]:
+    """The whole deck in pieces; `name` of the file of the scene, in YAML or Python, goes into its first comment. Ids are consecutive within a part; ids that clash or do not fit their columns are
+    errors, and there are then no pieces."""
     before = diagnostics.errors
     placer = Placer(model.variables, diagnostics)
     placed = [placer.place(part) for part in model.parts]
     if diagnostics.errors > before:
-        return b""
+        return []
     by = f"courant.Scene in {name}" if of_python else f"`courant generate {name}`"
     head = f"$ Written by {by}: change the scene, not this file.\n$ Parameters:\n"
     head += "".join(f"$   {parameter} = {number_text(value)}\n" for parameter, value in model.parameters) + "$ Parts:\n"
@@ -249,5 +249,5 @@ def deck_text(model: Model, name: str, diagnostics: Diagnostics, of_python: bool
             _initial_state(part, one, model.variables, out)
     except Fault as fault:
         fault.tell(diagnostics)
-        return b""
-    return b"".join([*out, b"*END\n"])
+        return []
+    return [*out, b"*END\n"]

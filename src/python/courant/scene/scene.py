@@ -147,12 +147,12 @@ class Scene:
 
     def deck(self) -> str:
         """The text of the deck. Raises CourantError with all that is wrong."""
-        from .deck import deck_text
+        from .deck import deck_pieces
 
         diagnostics = Diagnostics()
-        text = deck_text(self._model(diagnostics), self._name, diagnostics, self._of_python)
+        pieces = deck_pieces(self._model(diagnostics), self._name, diagnostics, self._of_python)
         self._raise(diagnostics)
-        return text.decode("utf-8", "surrogateescape")
+        return b"".join(pieces).decode("utf-8", "surrogateescape")
 
     def write(self, file: str | PathLike[str]) -> Path:
         """Writes the deck, and tells on standard error what was repaired. Raises CourantError."""
