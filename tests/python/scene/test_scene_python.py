@@ -190,3 +190,21 @@ def test_choices_are_explained() -> None:
     text = scene().explain()
     for word in ("sound speed 49", "walls are mirrors", "9810 * (0.3 - z)", "*CONTROL_SPH", "states each 0.001"):
         assert word in text, text
+
+
+def test_methods_of_walls_are_those_asked_for(tmp_path: Path) -> None:
+    house = stl(tmp_path / "house.stl")
+
+    def deck(**keys: Any) -> str:
+        made = scene(**keys).wall(house, scale=0.0005, move=(0.7, 0.1, 0))
+        return made.body(sphere={"centre": [0.3, 0.3, 0.3], "radius": 0.12}, density=500).deck()
+
+    def mirrors(text: str) -> list[int]:
+        return [int(word) for word in text.split("\n         5\n")[1].splitlines()[1].split()]
+
+    mixed, plain, all_of = deck(), deck(wall_method="contact"), deck(wall_method="mirrors")
+    assert mirrors(mixed) == [11, 101] and "\n        12         3         2" in mixed and "\n       101         2       101" in mixed
+    assert mirrors(all_of) == [11, 12, 101] and "\n        12         2         2" in all_of
+    assert "*COURANT_WALL_SUPPORT" not in plain and "\n       101         2       101" in plain
+    assert particles(plain) < particles(mixed) < particles(all_of)  # water keeps farther from what acts by contact
+    assert "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE" in mixed

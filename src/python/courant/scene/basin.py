@@ -134,7 +134,7 @@ class Basin:
     box_motion: dict[str, str] = field(default_factory=dict)  # displacements of the box by axis, formulas of TIME [L]
     fills: list[tuple[Any, Any]] = field(default_factory=list)  # shapes that are filled with water, and their entries
     solids: list[Solid] = field(default_factory=list)
-    method: str = "contact"  # how walls act on the water: by contact, as mirrors, or mixed: the box as mirrors, shapes by contact
+    method: str = "contact"  # how walls act on the water: by contact, as mirrors, or mixed: box and bodies as mirrors, other walls by contact
 
     @property
     def sides(self) -> tuple[str, ...]:

@@ -168,7 +168,7 @@ class BasinReader(ShapeReader):
     def read_method(self, root: Node, basin: Basin) -> None:
         node = self.get(root, "wall_method")
         # mirrors of many faces take most of the time of a run
-        shaped = any(basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS for solid in basin.solids)
+        shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
         asked = self.text(node) if node is not None else "" if basin.solids or basin.box_motion else "contact"
         basin.method = asked if asked not in ("", "auto") else "mixed" if shaped else "mirrors"
         if node is not None:
@@ -194,8 +194,9 @@ class BasinReader(ShapeReader):
             lattice.solids = [Near(shape)]
             self.add_entities(node, float(np.prod(n)))
             basin.water.lattices.append(lattice)
-        margin = (0.25 if basin.method == "mirrors" else 0.5) * dx * (1 - 1e-6)  # contact acts at half a spacing
-        out = [Near(solid.shape, margin) for solid in basin.solids if solid.closed or solid.shape.ground]
+        # contact acts at half a spacing
+        out = [Near(solid.shape, (0.25 if solid.mirrors(basin.method) else 0.5) * dx * (1 - 1e-6)) for solid in basin.solids
+               if solid.closed or solid.shape.ground]
         for lattice in basin.water.lattices:
             lattice.without = out
 

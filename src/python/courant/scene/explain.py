@@ -28,9 +28,9 @@ def explain_basin(basin: Basin, model: Model) -> None:
     if basin.box or basin.solids:
         right = "beside mirrors pressure is right in all rows, where contact alone gives 1.39 of it in the lowest"
         cheap = "shells push particles back that come nearer than half a spacing; cheap, but the lowest row has 1.39 of its pressure"
-        dear = "; shapes in space, and round ones in the plane, act by contact, as mirrors of many faces take most of the time of a run"
+        dear = "; walls of other shapes act by contact, as mirrors of many faces take most of the time of a run; bodies are mirrors, as contact lets them sink too deep"
         reason = {"mirrors": right, "contact": cheap, "mixed": right + dear}[basin.method]
-        add({"mirrors": "walls are mirrors", "contact": "walls act by contact", "mixed": "the box is a mirror, shapes act by contact"}[basin.method], reason,
+        add({"mirrors": "walls are mirrors", "contact": "walls act by contact", "mixed": "box and bodies are mirrors, other walls act by contact"}[basin.method], reason,
             ("*COURANT_WALL_SUPPORT METHOD 1, " if basin.mirrors else "") + "*CONTACT_AUTOMATIC_NODES_TO_SURFACE")
     if basin.mirrors:
         add("quintic spline, density diffusion 0.1", "a lattice under the cubic spline resists shear, which bodies afloat feel; diffusion smooths pressure",

@@ -33,6 +33,10 @@ class Solid:
     where: Location = field(default_factory=Location)
     part: int = 0
 
+    def mirrors(self, method: str) -> bool:
+        """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
+        return method == "mirrors" or (method == "mixed" and self.free)
+
 
 _RIGID = """\
 *MAT_RIGID
@@ -134,7 +138,7 @@ def number_parts(solids: list[Solid]) -> None:
 def part_of(solid: Solid, method: str) -> Part:
     """Fixed walls share material 2; what moves has one of its own, with the number of the part."""
     moves = solid.free or bool(solid.motion)
-    part = Part(id=solid.part, title=solid.shape.name[:70], section=3 if method == "mixed" else 2, material=solid.part if moves else 2, merge=True, plates=[solid.shape], where=solid.where)
+    part = Part(id=solid.part, title=solid.shape.name[:70], section=2 if method == "contact" or solid.mirrors(method) else 3, material=solid.part if moves else 2, merge=True, plates=[solid.shape], where=solid.where)
     if solid.free:
         part.inertia, part.velocity = solid.shape.inertia(solid.density), solid.velocity
     return part
@@ -172,7 +176,8 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
     out.append(part_set(SOLIDS, held + bodies))
     variables = basin.variables()
     out.append(substitute(_SURFACES, variables))
-    mirrors = [walls.id] if walls and basin.method == "mixed" else held + bodies if basin.method == "mirrors" else []
+    mirrors = [walls.id] if walls and basin.mirrors else []
+    mirrors += [solid.part for solid in basin.solids if solid.mirrors(basin.method)]
     if mirrors:
         out += [part_set(MIRRORS, mirrors), _MIRRORS]
     if basin.method == "mixed":

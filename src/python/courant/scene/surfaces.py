@@ -2,6 +2,7 @@
 of the hole."""
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,7 @@ def read_shape(path: Path) -> Shape:
     end = path.suffix.lower()
     if end not in KNOWN:
         raise ShapeFault(f"'{path}': files that end with '{end}' are not read here", f"known: {', '.join(KNOWN)}")
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise ShapeFault(f"'{path}' is not there", "paths of a scene begin at its folder")
     note_input(path)
     try:
