@@ -47,6 +47,9 @@ def test_jitter_shifts_within_its_fraction_and_is_the_same_each_time(tmp_path: P
     shift = np.array(out.cards("*NODE")) - np.array(written(tmp_path, PATCH).cards("*NODE"))
     assert np.all(shift[:, 1:3] != 0) and np.all(shift[:, 3] == 0)
     assert 0.04 < np.abs(shift).max() <= 0.05
+    cells = np.arange(16)
+    expected = 0.2 * 0.25 * np.column_stack([scattered(1000, 3 * cells), scattered(1000, 3 * cells + 1)])  # the decks of all versions
+    np.testing.assert_allclose(shift[:, 1:3], expected, rtol=0, atol=1e-12)
 
 
 def test_scattered_numbers_are_even_and_have_known_bits() -> None:

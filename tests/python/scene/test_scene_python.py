@@ -50,6 +50,7 @@ def test_a_hole_is_refused_with_its_position_or_closed(tmp_path: Path) -> None:
     assert f"a hole at x = {x:.4g}, y = {y:.4g}, z = {z:.4g}" in fault.value.message
     closed = sound(read_shape(file), closed=True, close=True)
     assert abs(closed.volume() / VOLUME - 1) < 1e-6 and any("1 hole closed" in note for note in closed.notes)
+    assert not any("closed" in note for note in sound(read_shape(stl(file)), closed=True, close=True).notes)
 
 
 def test_a_cavity_is_empty() -> None:
@@ -79,7 +80,8 @@ def test_masses_and_inertia_are_those_of_the_solid() -> None:
     mass, _, tensor = shapes.sphere(np.zeros(3), 0.5, 0.02, 3).inertia(3.0)
     np.testing.assert_allclose(np.diag(tensor), 0.4 * mass * 0.25, rtol=3e-3)
     mass, centre, tensor = shapes.box(np.array([1.0, 1]), np.array([2.0, 3]), 2).inertia(2.0)
-    np.testing.assert_allclose([mass, *centre[:2], tensor[2, 2]], [4, 1.5, 2, 4 * 5 / 12])
+    np.testing.assert_allclose([mass, *centre], [4, 1.5, 2, 0])
+    np.testing.assert_allclose(tensor, 4 / 12 * np.diag([2**2 + 1, 1 + 1, 1 + 2**2]), atol=1e-12)  # one unit deep
 
 
 def test_outlines_are_read(tmp_path: Path) -> None:
@@ -135,6 +137,13 @@ def test_water_keeps_out_of_a_wall(tmp_path: Path) -> None:
 def test_a_body_of_water_holds_its_volume(tmp_path: Path) -> None:
     made = courant.Scene("pool", spacing=0.01, end=0.1).water(stl(tmp_path / "house.stl", turned=(2,)), scale=0.001)
     assert abs(particles(made.deck()) * 0.01**3 / (VOLUME * 1e-9) - 1) < 0.01
+
+
+def test_particles_that_do_not_hold_a_shape_are_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    house = stl(tmp_path / "house.stl")
+    for spacing, warned in ((0.01, False), (0.09, True)):
+        courant.Scene("pool", spacing=spacing, end=0.1).water(house, scale=0.001).write(tmp_path / "pool.k")
+        assert ("warning: the particles of 'house' hold" in capsys.readouterr().err) == warned
 
 
 def test_walls_bodies_and_motions_become_cards(tmp_path: Path) -> None:
