@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include <fmt/format.h>
@@ -18,7 +19,6 @@
 #include "app/restart.hpp"
 #include "app/simulation.hpp"
 #include "app/terminal.hpp"
-#include "generate/generate.hpp"
 #include "keyword/cases.hpp"
 #include "keyword/keyword_state.hpp"
 #include "keyword/registry.hpp"
@@ -38,7 +38,7 @@ void request_stop(int) {
 struct Call {
   std::vector<Id> only_cases;
   std::optional<LoadCase> one_case;  ///< of the deck, that this call is for
-  std::string deck, dir = ".", scene, output, keyword, restart;
+  std::string deck, dir = ".", keyword, restart;
   std::vector<std::string> params, loads;
   int threads = 0;
   Real until = 0;
@@ -49,7 +49,7 @@ struct Call {
 /// Words of calls that the Python package answers, which are looked at here alone for mistakes.
 struct PythonCall {
   std::string input, dir, compare, page;
-  std::vector<std::string> only, loads;
+  std::vector<std::string> only, loads, params;
   int jobs = 0;
   bool fresh = false;
 };
@@ -257,15 +257,11 @@ int call_keywords(const Call& call) {
   return exit_ok;
 }
 
-int call_generate(const Call& call) {
-  std::map<std::string, std::string> params;
-  if (!parse_params(call.params, params)) return exit_input;
-  Diagnostics diagnostics;
-  const bool written = generate_deck(call.scene, call.output, params, diagnostics);
-  print_error(diagnostics.text());
-  if (!written) return exit_input;
-  fmt::print("wrote {}\n", call.output);
-  return exit_ok;
+/// A scene is written as a deck first, by the Python package. A deck may have any name.
+bool is_scene(const std::string& file) {
+  if (!file.ends_with(".yaml") && !file.ends_with(".yml")) return false;
+  const int first = std::ifstream(file).get();
+  return first != '*' && first != '$';
 }
 
 int call_manual(const CLI::App& app, const std::string& folder) {
@@ -317,12 +313,13 @@ int command_line(int argc, char** argv) {
   Call call;
 
   auto* run_ = app.add_subcommand("run", "run a deck (also: courant i=DECK ncpu=N)");
-  run_->add_option("DECK", call.deck, "keyword deck")->required();
+  run_->add_option("DECK", call.deck, "keyword deck, or scene.yaml")->required();
   run_->add_option("-o,--output", call.dir, "folder for the results; made if missing");
   run_->add_option("--threads", call.threads, "threads; 0: as many as are quickest")
       ->check(CLI::NonNegativeNumber);
   run_->add_option("--until", call.until, "end time instead of ENDTIM")->check(CLI::PositiveNumber);
-  run_->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
+  run_->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER, or one of the scene")
+      ->allow_extra_args(false);
   const auto add_load = [&](CLI::App* to) {
     to->add_option("--load", call.loads, "FILE.so with laws, loads, elements of your own")
         ->allow_extra_args(false);
@@ -340,7 +337,7 @@ int command_line(int argc, char** argv) {
   run_->add_flag("--quiet", call.quiet, "print errors only");
 
   auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");
-  check->add_option("DECK", call.deck, "keyword deck")->required();
+  check->add_option("DECK", call.deck, "keyword deck, or scene.yaml")->required();
   check->add_option("--param", call.params, "NAME=VALUE: override a *PARAMETER")->allow_extra_args(false);
   add_case(check);
   add_load(check);
@@ -353,13 +350,12 @@ int command_line(int argc, char** argv) {
   keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
   keywords->add_flag("--cannot-do", call.cannot_do, "all that is refused, as docs/cannot_do.md");
 
+  PythonCall python;  // what these three do, the package in src/python does
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
-  generate->add_option("SCENE", call.scene, "scene.yaml")->required();
-  generate->add_option("-o,--output", call.output, "deck to write")->required();
-  generate->add_option("--param", call.params, "NAME=VALUE: a parameter of the scene")
+  generate->add_option("SCENE", python.input, "scene.yaml")->required();
+  generate->add_option("-o,--output", python.page, "deck to write")->required();
+  generate->add_option("--param", python.params, "NAME=VALUE: a parameter of the scene")
       ->allow_extra_args(false);
-
-  PythonCall python;  // what these two do, the package in src/python does
   const auto add_python_load = [&](CLI::App* to) {
     to->add_option("--load", python.loads, "FILE.py with analyses, observations, charts of your own")
         ->allow_extra_args(false);
@@ -428,14 +424,14 @@ int command_line(int argc, char** argv) {
       print_error(fmt::format("error: --load: {}\n", why));
       return exit_input;
     }
-  if (*run_) return for_cases(call, !call.restart.empty(), call_run);
-  if (*check) return for_cases(call, call.json, call_check);
-  if (*keywords) return call_keywords(call);
-  if (*generate) return call_generate(call);
-  if (*post || *verify) {
+  const bool of_scene = (*run_ || *check) && is_scene(call.deck);
+  if (*generate || *post || *verify || of_scene) {
     print_error(fmt::format("error: {}\n", become_python_program(words)));
     return exit_other;
   }
+  if (*run_) return for_cases(call, !call.restart.empty(), call_run);
+  if (*check) return for_cases(call, call.json, call_check);
+  if (*keywords) return call_keywords(call);
   if (*manual) return call_manual(app, call.dir);
   const auto found = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == topic; });
   fmt::print("{}", (found.empty() ? &app : found.front())->help());

@@ -26,7 +26,6 @@ MAY_INCLUDE = {
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces", "extension"],
     "output": ["state"],
     "time": ["state", "search", "output"],
-    "generate": ["base", "output"],
     "vtk": ["state", "output"],
 }
 TOP = "app"  # may include everything; nothing includes it

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "generate/generate.hpp"
+#include "../generate_deck.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant::benchmarks {
@@ -33,7 +33,7 @@ std::unique_ptr<Simulation> build_scene(const std::string& path, const Parameter
   Diagnostics diagnostics;
   std::unique_ptr<Simulation> s;
   const bool made =
-      generate_deck(std::string(SOURCE_DIR) + "/" + path, deck.string(), parameters, diagnostics);
+      test::generate_deck(std::string(SOURCE_DIR) + "/" + path, deck.string(), parameters, diagnostics);
   if (made && !cards.empty()) add_cards(deck, cards);
   if (made) s = Simulation::build(deck.string(), {}, diagnostics);
   std::filesystem::remove(deck);

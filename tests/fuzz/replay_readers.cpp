@@ -1,10 +1,9 @@
-// Reads files of every kind that the C++ programs read beside decks, scenes and restart files, as they are
-// and with seeded changes.
-//   fuzz_readers [--seconds S] [--seed K] [--only NAME] [--limit S] [--sign] PROJECT RUN...
-// PROJECT lends scenes; each RUN is the folder of a run with results and restart
-// files. Each kind gets S seconds (2). Ends with 1 where reading throws what it does not announce, takes more
-// than --limit seconds (1) of processor time, or more than 1 GB beyond what it had; where it crashes, the
-// input remains in a folder that is told at the start.
+// Reads files of every kind that the C++ program reads beside decks, restart files, as they are and with
+// seeded changes.
+//   fuzz_readers [--seconds S] [--seed K] [--only NAME] [--limit S] [--sign] RUN...
+// Each RUN is the folder of a run with restart files. Each kind gets S seconds (2). Ends with 1 where reading
+// throws what it does not announce, takes more than --limit seconds (1) of processor time, or more than 1 GB
+// beyond what it had; where it crashes, the input remains in a folder that is told at the start.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -22,8 +21,6 @@
 #include <string>
 #include <vector>
 
-#include "generate/generate.hpp"
-#include "generate/scene.hpp"
 #include "mutate.hpp"
 #include "output/restart_file.hpp"
 
@@ -100,18 +97,6 @@ void add_seeds(Kind& kind, const fs::path& path, const std::string& ending) {
     if (fs::file_size(file) > 0 && fs::file_size(file) <= largest_input) kind.seeds.push_back(content(file));
 }
 
-void read_scene_and_deck(const fs::path& file) {
-  Diagnostics diagnostics;
-  const Scene scene = read_scene(file, {}, diagnostics);
-  Id count = 0;
-  for (const ScenePart& part : scene.parts) {
-    for (const SceneLattice& lattice : part.lattices) count += lattice.count();
-    for (const ScenePlate& plate : part.plates) count += plate.n[0] * plate.n[1];
-  }
-  if (diagnostics.ok() && count < 5000) generate_deck(file, file.parent_path() / "deck.k", {}, diagnostics);
-  diagnostics.text();
-}
-
 void read_restart(const fs::path& file) {
   try {
     read_restart_file(file);
@@ -119,7 +104,7 @@ void read_restart(const fs::path& file) {
   }
 }
 
-std::vector<Kind> kinds_of(const fs::path& project, const std::vector<fs::path>& runs, const fs::path& work) {
+std::vector<Kind> kinds_of(const std::vector<fs::path>& runs, const fs::path& work) {
   std::vector<Kind> kinds;
   const auto kind = [&](const char* name, const fs::path& file, bool binary, auto read) -> Kind& {
     return kinds.emplace_back(Kind{name, work / file, binary, read, {}});
@@ -127,11 +112,6 @@ std::vector<Kind> kinds_of(const fs::path& project, const std::vector<fs::path>&
   const auto of_runs = [&](Kind& to, const char* path, const char* ending) {
     for (const fs::path& run : runs) add_seeds(to, run / path, ending);
   };
-  const auto yaml = [&](Kind& to, std::initializer_list<const char*> files) {
-    for (const char* file : files) add_seeds(to, project / file, ".yaml");
-  };
-  yaml(kind("scene", "verification/scenes/changed.yaml", false, read_scene_and_deck),
-       {"tests/verification/scenes", "tests/stability/scenes", "keyword_decks/still_water"});
   Kind& restart = kind("restart", "restart.h5", true, read_restart);
   restart.signed_by_crc = true;
   of_runs(restart, "restart", ".h5");
@@ -228,8 +208,8 @@ int replay(Kind& kind, const Options& options) {
 
 int main(int argc, char** argv) {
   const Options options = parse(argc, argv);
-  if (options.folders.size() < 2) {
-    std::fprintf(stderr, "fuzz_readers: want the folders of the project and of runs\n");
+  if (options.folders.empty()) {
+    std::fprintf(stderr, "fuzz_readers: the folders of runs are missing\n");
     return 2;
   }
 #ifndef __SANITIZE_ADDRESS__
@@ -240,14 +220,8 @@ int main(int argc, char** argv) {
   fs::create_directories(work);
   std::printf("inputs in %s\n", work.c_str());
   std::fflush(stdout);
-  // scenes name files beside them
-  fs::copy(options.folders[0] / "tests/verification", work / "verification", fs::copy_options::recursive);
-  fs::copy(options.folders[0] / "tests/stability/scenes", work / "verification/scenes",
-           fs::copy_options::recursive | fs::copy_options::skip_existing);
-  fs::copy(options.folders[0] / "keyword_decks", work / "keyword_decks", fs::copy_options::recursive);
   int faults = 0;
-  const std::vector<fs::path> runs(options.folders.begin() + 1, options.folders.end());
-  for (Kind& kind : kinds_of(options.folders[0], runs, work)) {
+  for (Kind& kind : kinds_of(options.folders, work)) {
     if (!options.only.empty() && kind.name != options.only) continue;
     if (kind.seeds.empty()) {
       std::fprintf(stderr, "fuzz_readers: no file of the kind %s\n", kind.name.c_str());

@@ -10,8 +10,8 @@
 #include <sstream>
 #include <string>
 
+#include "../generate_deck.hpp"
 #include "app/simulation.hpp"
-#include "generate/generate.hpp"
 
 namespace courant::test {
 

@@ -1,7 +1,7 @@
-"""Results of Courant's runs in Python, and the calls `courant post` and `courant verify`.
+"""Scenes, runs and results of Courant in Python, and the calls `courant generate`, `courant post` and `courant verify`.
 
-`courant.open(DIR)` gives the results of a run (see courant.results); `python3 -m courant post RECIPE DIR` and
-`python3 -m courant verify SUITE` are the calls.
+`courant.Scene` sets up a run and writes its deck (see courant.scene.scene); `courant.run(DECK)` runs one, `courant.check(DECK)` looks at it alone;
+`courant.open(DIR)` gives the results of a run (see courant.results).
 """
 
 from __future__ import annotations
@@ -13,9 +13,12 @@ from .optional import lazily
 if TYPE_CHECKING:
     from .diagnostics import CourantError
     from .results import Results, open
+    from .running import Run, RunFailed, check, run
+    from .scene.scene import Scene
     from .tables import Table
     from .units import Units
 
-__all__ = ["CourantError", "Results", "Table", "Units", "open"]
+__all__ = ["CourantError", "Results", "Run", "RunFailed", "Scene", "Table", "Units", "check", "open", "run"]
 # so that the calls start before numpy is there, and can tell where it is missing
-__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".results": ["Results", "open"], ".tables": ["Table"], ".units": ["Units"]})
+__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".results": ["Results", "open"],
+                                ".running": ["Run", "RunFailed", "check", "run"], ".scene.scene": ["Scene"], ".tables": ["Table"], ".units": ["Units"]})

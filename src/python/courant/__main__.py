@@ -1,4 +1,4 @@
-"""python3 -m courant post|verify ..."""
+"""python3 -m courant generate|run|check|post|verify ..."""
 
 from __future__ import annotations
 
@@ -28,20 +28,25 @@ def _with_modules() -> str:
 
 def main(words: list[str]) -> int:
     """The exit code of the call."""
-    calls = ("post", "verify")
+    calls = ("generate", "run", "check", "post", "verify")
     if not words or words[0] in ("-h", "--help"):
-        print("usage: courant post RECIPE DIR\n       courant verify SUITE\n\n`courant post --help` tells the options of a call.")
+        print("usage: courant generate SCENE.yaml -o DECK.k\n       courant run SCENE.yaml -o DIR\n       courant post RECIPE DIR\n       courant verify SUITE\n\n`courant post --help` tells the options of a call.")
         return 0 if words else 1
     if words[0] not in calls:
         near = did_you_mean(words[0], calls).removeprefix("did you mean ").removesuffix("? ")
-        hint = f"did you mean `courant {near}`?" if near else "the calls are post and verify"
+        hint = f"did you mean `courant {near}`?" if near else f"the calls are {', '.join(calls[:-1])} and {calls[-1]}"
         sys.stderr.write(f"error: '{words[0]}' is no call of this package\n  hint: {hint}\n")
         return 1
     if missing := _with_modules():
         sys.stderr.write(missing)
         return 3
-    if words[0] == "post":
-        from .post.command import main as call
+    if words[0] in ("run", "check"):
+        from .scene.run_command import main as of_scene
+        return of_scene(words[0], words[1:])
+    if words[0] == "generate":
+        from .scene.command import main as call
+    elif words[0] == "post":
+        from .post.command import main as call  # type: ignore[assignment]
     else:
         from .verify.cli import main as call  # type: ignore[assignment]
     return call(words[1:])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from os import PathLike
 
@@ -29,6 +30,12 @@ class Diagnostic:
     where: Location
     message: str
     hint: str = ""
+
+    @property
+    def field(self) -> str:
+        """Name of the field of a card that the message is about, "" for none."""
+        found = re.search(r" field \d+ \((\w+)", self.message)
+        return found[1] if found else ""
 
     def text(self) -> str:
         place = f"{self.where}: " if self.where.file else ""

@@ -1,5 +1,5 @@
 """Arithmetic expressions of suites and scenes: `0.5 * rho0 * U^2`, over numbers or whole arrays. The grammar is that of scenes: + - * / ^ (or **),
-parentheses, functions, names (or &name). A value that is not finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays
+parentheses, functions, names (or &name), and conditions: `x < 6 and y > 0` is 1 where it holds, else 0. A value that is not finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays
 gives NaN in its place."""
 from __future__ import annotations
 
@@ -48,25 +48,59 @@ def _remainder(a: Array, b: Array) -> Array:
     return np.fmod(_whole(_rounded)(a), _whole(_rounded)(b))
 
 
+def _by_c(f: Callable[..., float]) -> Callable[..., Array]:
+    """A function of C's library, whose bits are those of the solver on every machine; those of numpy depend on the processor. NaN where it has no value."""
+    def one(*arguments: float) -> float:
+        try:
+            return f(*arguments)
+        except (ValueError, OverflowError):
+            return math.nan
+    def of(*arguments: Array) -> Array:
+        if all(np.ndim(a) == 0 for a in arguments):
+            return one(*(float(a) for a in arguments))
+        columns = [a.ravel().tolist() for a in np.broadcast_arrays(*(np.asarray(a, dtype=float) for a in arguments))]
+        try:
+            values = list(map(f, *columns))
+        except (ValueError, OverflowError):
+            values = list(map(one, *columns))
+        return np.array(values, dtype=float).reshape(np.broadcast_shapes(*(np.shape(a) for a in arguments)))
+    return of
+
+
+_pow = _by_c(math.pow)
+
+
 def _power(a: Array, b: Array) -> Array:
-    return np.square(a) if np.ndim(b) == 0 and b == 2 else np.power(a, b)  # rounded right, as that of C is
+    return np.square(a) if np.ndim(b) == 0 and b == 2 else _pow(a, b)  # rounded right, as that of C is
+
+
+def _sign(a: Array, b: Array) -> Array:
+    return np.where(np.isnan(b), np.nan, np.where(b < 0, -np.abs(a), np.abs(a)))
+
+
+def _when(compare: Callable[[Array, Array], Array]) -> Callable[[Array, Array], Array]:
+    """1 where a comparison holds, else 0."""
+    return lambda a, b: np.where(np.isnan(a) | np.isnan(b), np.nan, compare(a, b))
 
 
 _SAME = np.positive
 # name: (fewest arguments, most arguments or None for any number, function of arrays)
 FUNCTIONS: dict[str, tuple[int, int | None, Callable[..., Array]]] = {
-    "sin": (1, 1, np.sin), "cos": (1, 1, np.cos), "tan": (1, 1, np.tan), "csc": (1, 1, lambda x: 1 / np.sin(x)),
-    "sec": (1, 1, lambda x: 1 / np.cos(x)), "ctn": (1, 1, lambda x: 1 / np.tan(x)), "asin": (1, 1, np.arcsin),
-    "acos": (1, 1, np.arccos), "atan": (1, 1, np.arctan), "atan2": (2, 2, np.arctan2), "sinh": (1, 1, np.sinh),
-    "cosh": (1, 1, np.cosh), "tanh": (1, 1, np.tanh), "asinh": (1, 1, np.arcsinh), "acosh": (1, 1, np.arccosh),
-    "atanh": (1, 1, np.arctanh), "exp": (1, 1, np.exp), "log": (1, 1, np.log), "log10": (1, 1, np.log10),
+    "sin": (1, 1, _by_c(math.sin)), "cos": (1, 1, _by_c(math.cos)), "tan": (1, 1, _by_c(math.tan)), "csc": (1, 1, lambda x: 1 / FUNCTIONS["sin"][2](x)),
+    "sec": (1, 1, lambda x: 1 / FUNCTIONS["cos"][2](x)), "ctn": (1, 1, lambda x: 1 / FUNCTIONS["tan"][2](x)), "asin": (1, 1, _by_c(math.asin)),
+    "acos": (1, 1, _by_c(math.acos)), "atan": (1, 1, _by_c(math.atan)), "atan2": (2, 2, _by_c(math.atan2)), "sinh": (1, 1, _by_c(math.sinh)),
+    "cosh": (1, 1, _by_c(math.cosh)), "tanh": (1, 1, _by_c(math.tanh)), "asinh": (1, 1, _by_c(math.asinh)), "acosh": (1, 1, _by_c(math.acosh)),
+    "atanh": (1, 1, _by_c(math.atanh)), "exp": (1, 1, _by_c(math.exp)), "log": (1, 1, _by_c(math.log)), "log10": (1, 1, _by_c(math.log10)),
     "sqrt": (1, 1, np.sqrt), "min": (2, None, lambda *values: reduce(np.minimum, values)),
     "max": (2, None, lambda *values: reduce(np.maximum, values)), "mod": (2, 2, _remainder),
-    "abs": (1, 1, np.abs), "sign": (2, 2, lambda a, b: np.where(b < 0, -np.abs(a), np.abs(a))),
+    "abs": (1, 1, np.abs), "sign": (2, 2, _sign),
     "int": (1, 1, _whole(np.trunc)), "aint": (1, 1, np.trunc), "nint": (1, 1, _whole(_rounded)),
     "anint": (1, 1, _rounded), "float": (1, 1, _SAME), "ls_integer": (1, 1, _whole(np.trunc)),
     "ls_real": (1, 1, _SAME), "floor": (1, 1, _whole(np.floor)), "ceil": (1, 1, _whole(np.ceil)), "round": (1, 1, _whole(_rounded))}
-_OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": _power}
+_OPERATORS: dict[str, Callable[..., Array]] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide, "^": _power,
+    "<=": _when(np.less_equal), ">=": _when(np.greater_equal), "<": _when(np.less), ">": _when(np.greater), "==": _when(np.equal), "!=": _when(np.not_equal),
+    "and": _when(np.logical_and), "or": _when(np.logical_or)}
+_COMPARISONS = ("<=", ">=", "==", "!=", "<", ">")
 
 
 def _fault_of(name: str, arguments: Sequence[Array]) -> str:
@@ -117,7 +151,7 @@ class _Parser:
         self.used: set[int] = set()
 
     def run(self) -> Node:
-        node = self.sum()
+        node = self.condition()
         self.blanks()
         if self.at < len(self.text):
             raise ExpressionFault(f"'{self.text[self.at:]}' is not understood")
@@ -141,6 +175,44 @@ class _Parser:
             if name is None:
                 return node
             node = _operation(name, _OPERATORS[name], [node, operand()])
+
+    def take_word(self, word: str) -> bool:
+        self.blanks()
+        found = _WORD.match(self.text, self.at)
+        if not found or found[0] != word or word in self.names:
+            return False
+        self.at = found.end()
+        return True
+
+    def condition(self) -> Node:
+        """1 where it holds, 0 where it does not; a sum alone has its own value."""
+        node = self.all_of()
+        while self.take_word("or"):
+            node = _operation("or", _OPERATORS["or"], [node, self.all_of()])
+        return node
+
+    def all_of(self) -> Node:
+        node = self.inverted()
+        while self.take_word("and"):
+            node = _operation("and", _OPERATORS["and"], [node, self.inverted()])
+        return node
+
+    def inverted(self) -> Node:
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise ExpressionFault("too deeply nested")
+        node = _operation("==", _OPERATORS["=="], [self.inverted(), _constant(0.0)]) if self.take_word("not") else self.comparison()
+        self.depth -= 1
+        return node
+
+    def comparison(self) -> Node:
+        """0 < x < 1 means what it says."""
+        left, node = self.sum(), None
+        while name := next((one for one in _COMPARISONS if self.take(one)), ""):
+            right = self.sum()
+            one = _operation(name, _OPERATORS[name], [left, right])
+            left, node = right, one if node is None else _operation("and", _OPERATORS["and"], [node, one])
+        return node or left
 
     def sum(self) -> Node:
         return self.chain("+-", self.product)
@@ -169,7 +241,7 @@ class _Parser:
         if self.at >= len(self.text):
             raise ExpressionFault("a value is missing")
         if self.take("("):
-            node = self.sum()
+            node = self.condition()
             self.close()
             return node
         reference = self.take("&")
@@ -256,6 +328,23 @@ class Formula:
     def __call__(self, *values: float) -> float:
         """The value at one place; NaN where there is none."""
         return float(self._node([*(float(v) for v in values), *self._values], False))
+
+
+class PlaceFormula:
+    """An expression of a scene's parameters and of a position x, y, z. Raises `ExpressionFault` where it is not understood."""
+
+    def __init__(self, text: str, parameters: Mapping[str, float]) -> None:
+        names = sorted(parameters)
+        self._values = [float(parameters[name]) for name in names]
+        self._node = _Parser(_without_placeholders(text), ["x", "y", "z", *names], "parameter").run()
+
+    def over(self, points: Sequence[Array], size: int) -> np.ndarray:
+        """Values at positions, three arrays of shape (size,); NaN where there is none. Shape (size,)."""
+        return np.array(np.broadcast_to(np.asarray(self._node([*points, *self._values], False), dtype=float), (size,)))
+
+    def at(self, point: Sequence[float]) -> float:
+        """The value at one position. Raises `ExpressionFault`."""
+        return float(self._node([*point, *self._values], True))
 
 
 def _without_placeholders(text: str) -> str:

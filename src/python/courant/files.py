@@ -9,7 +9,7 @@ import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -94,29 +94,34 @@ def _is_device(file: Path) -> bool:
     return stat.S_ISCHR(mode) or stat.S_ISFIFO(mode)
 
 
-def _write_through(file: Path, data: bytes) -> None:
+def _write_through(file: Path, data: Iterable[bytes]) -> None:
     """To a device or pipe that is there."""
-    descriptor = os.open(file, os.O_WRONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+    try:
+        descriptor = os.open(file, os.O_WRONLY | os.O_CLOEXEC | os.O_NONBLOCK | os.O_NOCTTY)
+    except OSError as fault:
+        if fault.errno != errno.ENXIO:
+            raise
+        raise _fault("it is a pipe without a reader") from fault
     fcntl.fcntl(descriptor, fcntl.F_SETFL, fcntl.fcntl(descriptor, fcntl.F_GETFL) & ~os.O_NONBLOCK)
     with open(descriptor, "wb") as stream:
-        stream.write(data)
+        stream.writelines(data)
 
 
-def write_file(file: Path, content: str | bytes, *, named: bool = False) -> None:
+def write_file(file: Path, content: str | bytes | list[bytes], *, named: bool = False) -> None:
     """Readers see the old file or the whole new one. A link, what is no file and what was read as an input are not replaced. `named`: the user has
     named the file, so that nothing beside it is ours, and a device or pipe may be meant. Raises OutputError; `file` is then as it was."""
-    data = content.encode("utf-8", "surrogateescape") if isinstance(content, str) else content
+    pieces = content if isinstance(content, list) else [content.encode("utf-8", "surrogateescape") if isinstance(content, str) else content]
     temporary = file.with_name(f"{file.name}.{os.getpid()}.tmp" if named else f"{file.name}.tmp")
     written = False
     try:
         if named and _is_device(file):
-            return _write_through(file, data)
+            return _write_through(file, pieces)
         _check(file)
         if not named:
             temporary.unlink(missing_ok=True)  # nothing goes through a link
         with open(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o666), "wb") as stream:
             written = True
-            stream.write(data)
+            stream.writelines(pieces)
         temporary.replace(file)
     except OSError as fault:
         try:

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "../../generate_deck.hpp"
 #include "app/simulation.hpp"
-#include "generate/generate.hpp"
 #include "sph/materials/initial_stress.hpp"
 
 namespace courant {
@@ -40,8 +40,8 @@ class InitialStress : public ::testing::Test {
     scene.insert(scene.find(mark) + mark.size(), line);
     std::ofstream(base_.string() + ".yaml") << scene;
     Diagnostics diagnostics;
-    EXPECT_TRUE(
-        generate_deck(base_.string() + ".yaml", base_.string() + ".k", {{"resolution", "16"}}, diagnostics))
+    EXPECT_TRUE(test::generate_deck(base_.string() + ".yaml", base_.string() + ".k", {{"resolution", "16"}},
+                                    diagnostics))
         << diagnostics.text();
     auto s = Simulation::build(base_.string() + ".k", {}, diagnostics);
     EXPECT_TRUE(s) << diagnostics.text();

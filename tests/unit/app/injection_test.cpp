@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "generate/generate.hpp"
+#include "../../generate_deck.hpp"
 #include "parallel/parallel.hpp"
 #include "small_scene.hpp"
 #include "sph/boundaries/injection.hpp"
@@ -129,8 +129,9 @@ std::unique_ptr<Simulation> jump(const std::string& scene) {
   const std::string deck =
       (std::filesystem::temp_directory_path() / ("courant_injection_" + scene + ".k")).string();
   Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(std::string(SOURCE_DIR) + "/keyword_decks/hydraulic_jump/" + scene + ".yaml",
-                            deck, {{"endtim", "0.5"}}, diagnostics))
+  EXPECT_TRUE(
+      test::generate_deck(std::string(SOURCE_DIR) + "/keyword_decks/hydraulic_jump/" + scene + ".yaml", deck,
+                          {{"endtim", "0.5"}}, diagnostics))
       << diagnostics.text();
   auto s = Simulation::build(deck, {}, diagnostics);
   EXPECT_TRUE(s) << diagnostics.text();

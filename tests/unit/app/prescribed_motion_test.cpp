@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "../../generate_deck.hpp"
 #include "app/simulation.hpp"
-#include "generate/generate.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
@@ -70,7 +70,7 @@ std::unique_ptr<Simulation> built(const std::string& scene) {
   const fs::path base = fs::temp_directory_path() / ("courant_driven_" + std::to_string(::getpid()));
   std::ofstream(base.string() + ".yaml") << scene;
   Diagnostics diagnostics;
-  EXPECT_TRUE(generate_deck(base.string() + ".yaml", base.string() + ".k", {}, diagnostics))
+  EXPECT_TRUE(test::generate_deck(base.string() + ".yaml", base.string() + ".k", {}, diagnostics))
       << diagnostics.text();
   auto s = Simulation::build(base.string() + ".k", {}, diagnostics);
   EXPECT_TRUE(s) << diagnostics.text();

@@ -2,8 +2,6 @@
 from __future__ import annotations
 
 import argparse
-import os
-import shutil
 import signal
 import sys
 from collections.abc import Sequence
@@ -12,6 +10,7 @@ from pathlib import Path
 from ..diagnostics import Diagnostics
 from ..files import OutputError
 from ..optional import MissingModule, module
+from ..program import executable
 from ..registry import LoadFault, load_file
 from ..terminal import EXIT_INPUT, EXIT_MISSED, EXIT_OK, EXIT_OTHER, Parser, clear_status_line, count, say, status_line
 from .changes import Comparison, compare_with
@@ -34,16 +33,6 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--load", metavar="FILE.py", action="append", default=[], help="adds observations, charts, ... of your own")
     parser.add_argument("--executable", type=Path, help=argparse.SUPPRESS)
     return parser
-
-
-def _executable(given: Path | None) -> Path:
-    """The program that generates and runs decks: as given, of the environment, beside the package, on the PATH."""
-    named = given or os.environ.get("COURANT_EXECUTABLE")
-    if named:
-        return Path(named).absolute()
-    beside = [folder / "bin" / "courant" for folder in Path(__file__).resolve().parents[1:7]]
-    found = next((file for file in beside if os.access(file, os.X_OK) and file.is_file()), None) or shutil.which("courant")
-    return Path(found) if found else Path("courant")
 
 
 def _complain(text: str) -> None:
@@ -84,7 +73,7 @@ def _verify(words: argparse.Namespace, stop: list[int]) -> int:
     if words.compare and not words.compare.is_file():
         diagnostics.error(words.compare, "cannot read the earlier results", "give the results.csv of an earlier call")
     only = [name for names in words.only for name in names.split(",")]
-    options = Options(folder, _executable(words.executable), words.jobs, words.fresh, only, lambda: bool(stop),
+    options = Options(folder, Path(executable(words.executable) or "courant"), words.jobs, words.fresh, only, lambda: bool(stop),
                       lambda line: say(line + "\n"), status_line())
     try:
         if not diagnostics.ok:

@@ -1,0 +1,17 @@
+"""The program beside this package."""
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+
+def executable(given: str | os.PathLike[str] | None = None) -> str:
+    """The program that runs decks: as given, of COURANT_EXECUTABLE, beside the package, of a build of the sources, on the PATH; "" if there is none."""
+    if named := given or os.environ.get("COURANT_EXECUTABLE"):
+        return str(Path(named).absolute())
+    here = Path(__file__).resolve()
+    beside = [folder / "bin" / "courant" for folder in here.parents[1:6]]
+    builds = sorted(here.parents[3].glob("build/*/courant"), key=lambda file: -file.stat().st_mtime) if len(here.parents) > 3 else []
+    found = next((file for file in [*beside, *builds] if os.access(file, os.X_OK) and file.is_file()), None) or shutil.which("courant")
+    return str(found or "")

@@ -1,0 +1,1 @@
+"""Scenes: a description in YAML or Python becomes a keyword deck."""

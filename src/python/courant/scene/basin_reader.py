@@ -1,0 +1,211 @@
+"""Water with its box, walls and bodies, in a description that needs no cards."""
+from __future__ import annotations
+
+
+import numpy as np
+
+from ..yaml_map import Node, is_list, is_scalar
+from .basin import Basin, add_basin
+from .model import MOST_ENTITIES, Lattice, Model, Near
+from .placeholders import PlaceholderFault, substitute
+from .shape_reader import ShapeReader
+from .shapes import Shape, faulty_edges
+from .solids import FREE, Solid
+
+_WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
+_GOES_WITH_WATER = ("box", "walls", "bodies", "wall_method", "gravity", "end", "output")
+MOST_MIRRORS = 12  # lines of a shape in the plane
+METHODS = ("contact", "mirrors", "mixed")
+
+
+class BasinReader(ShapeReader):
+    def read_basin(self, root: Node, model: Model) -> None:
+        water = self.get(root, "water")
+        if water is None:
+            for key in _GOES_WITH_WATER:
+                if (entry := self.get(root, key)) is not None:
+                    self.error(entry, f"'{key}' goes with 'water', which the scene has not")
+            return
+        before = self.diagnostics.errors
+        basin = self.read_water(water)
+        if (gravity := self.get(root, "gravity")) is not None:
+            basin.gravity = self.number(gravity, "gravity") or 0.0
+            if basin.gravity < 0:
+                self.error(gravity, "gravity: expected its size, >= 0; it acts downwards")
+        basin.end = self.length(root, "end")
+        basin.output = self.length(root, "output") if self.get(root, "output") is not None else basin.end / 100
+        if (box := self.get(root, "box")) is not None:
+            self.read_box(box, basin)
+        if self.diagnostics.errors == before:
+            self.read_solids(root, basin)
+            self.read_method(root, basin)
+        if self.diagnostics.errors == before:
+            self.fill(basin)
+        if self.diagnostics.errors > before:
+            return
+        if fault := basin.complete():
+            self.error(water, fault)
+        else:
+            add_basin(basin, model)
+
+    def read_water(self, node: Node) -> Basin:
+        basin = Basin()
+        if not self.is_map(node, "water: {spacing: 0.01, blocks: [{low: [0, 0], high: [1, 1]}]}", "water"):
+            return basin
+        self.check_keys(node, "water", _WATER)
+        if self.get(node, "density") is not None:
+            basin.density = self.length(node, "density")
+        if self.get(node, "sound_speed") is not None:
+            basin.sound_speed = self.length(node, "sound_speed")
+        if (viscosity := self.get(node, "viscosity")) is not None:
+            basin.viscosity = self.number(viscosity, "viscosity") or 0.0
+            if basin.viscosity < 0:
+                self.error(viscosity, "viscosity: expected a number >= 0")
+        basin.tension = self.flag(node, "tension", True)
+        basin.water.where = self.at(node)
+        if self.get(node, "velocity") is not None:
+            self.read_velocity(node, True, basin.water)
+        if (pressure := self.get(node, "pressure")) is not None:
+            basin.water.pressure = self.of_place(pressure, "pressure")
+        basin.spacing = self.length(node, "spacing")
+        blocks, bodies = self.get(node, "blocks"), self.get(node, "bodies")
+        if bodies is None and (blocks is None or not is_list(blocks) or not blocks.value):
+            self.error(node if blocks is None else blocks, "water: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z")
+            return basin
+        entries = blocks.value if blocks is not None and is_list(blocks) else []
+        basin.water.lattices = [self.read_lattice(one, basin.spacing) for one in entries if self.is_map(one)]
+        for one in self._list(bodies, "bodies") if bodies is not None else ():
+            if basin.spacing > 0 and (shape := self.read_shape(one, "a body of water", basin.spacing)) is not None:
+                self.dim = self.dim or shape.dim
+                basin.fills.append((shape, one))
+        basin.dim = self.dim
+        return basin
+
+    def _list(self, node: Node, name: str) -> list[Node]:
+        if is_list(node) and node.value:
+            return list(node.value)
+        self.error(node, f"{name}: expected a list that is not empty", f"{name}: [{{file: house.stl, scale: 0.001}}]")
+        return []
+
+    def read_box(self, node: Node, basin: Basin) -> None:
+        if not self.is_map(node, "box: {low: [0, 0], high: [2, 1], open: [top]}", "box"):
+            return
+        self.check_keys(node, "box", ("low", "high", "open", "motion"))
+        low, low_dim = self.vector(node, "low")
+        high, high_dim = self.vector(node, "high")
+        basin.box = (low, high)
+        if low_dim != basin.dim or high_dim != basin.dim:
+            self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
+        opened = self.get(node, "open")
+        if opened is not None and not is_list(opened):
+            self.error(opened, "open: expected a list of sides", "open: [top]")
+        for side in opened.value if opened is not None and is_list(opened) else ():
+            name = self.text(side)
+            if name not in basin.sides:
+                self.error(side, f"open: '{name}' is no side of the box", f"its sides: {', '.join(basin.sides)}")
+            basin.open.add(name)
+        basin.box_motion = self.read_motion(node)
+
+    def read_motion(self, node: Node) -> dict[str, str]:
+        """Displacements along axes as formulas of TIME [L]."""
+        entry = self.get(node, "motion")
+        if entry is None or not self.is_map(entry, "motion: {x: 0.05 * sin(2 * PI * TIME / 1.2)}", "motion"):
+            return {}
+        axes = ("x", "y", "z")[: self.dim or 3]
+        self.check_keys(entry, "motion", axes)
+        out = {}
+        for key, value in entry.value:
+            if not is_scalar(value):
+                self.error(value, "motion: expected a formula of TIME")
+                continue
+            try:
+                out[str(key.value)] = substitute(value.value, self.variables)
+            except PlaceholderFault as fault:
+                self.error(value, fault.message)
+        return out
+
+    def read_solids(self, root: Node, basin: Basin) -> None:
+        """Walls that are held or driven, and bodies that move freely."""
+        for key, what, others in (("walls", "a wall", ("motion",)), ("bodies", "a body", ("density", "mass", "velocity", "hold"))):
+            node = self.get(root, key)
+            for entry in self._list(node, key) if node is not None else ():
+                shape = self.read_shape(entry, what, basin.spacing, others)
+                if shape is None:
+                    continue
+                shape.mesh = 2 * basin.spacing
+                self.add_entities(entry, len(shape.faces))
+                solid = Solid(shape, closed=self._is_closed(shape), where=self.at(entry))
+                if key == "walls":
+                    solid.motion = self.read_motion(entry)
+                else:
+                    self.read_body(entry, solid)
+                basin.solids.append(solid)
+
+    @staticmethod
+    def _is_closed(shape: Shape) -> bool:
+        edges = faulty_edges(shape)
+        return not len(edges.free) and not len(edges.crowded)
+
+    def read_body(self, entry: Node, solid: Solid) -> None:
+        if not solid.closed:
+            self.error(entry, "a body: only a closed shape has a mass")
+            return
+        mass, density = self.get(entry, "mass"), self.get(entry, "density")
+        if (mass is None) == (density is None):
+            self.error(entry, "a body: expected its 'density' or its 'mass'")
+            return
+        solid.density = self.length(entry, "density") if mass is None else self.length(entry, "mass") / solid.shape.volume()
+        solid.free = True
+        if self.get(entry, "velocity") is not None:
+            solid.velocity = self.vector(entry, "velocity")[0]
+        hold = self.get(entry, "hold")
+        for one in self._list(hold, "hold") if hold is not None else ():
+            name = self.text(one)
+            if name not in FREE:
+                self.error(one, f"hold: '{name}' is no direction", f"directions: {', '.join(FREE)}; r is a turn")
+            solid.hold.add(name)
+
+    def read_method(self, root: Node, basin: Basin) -> None:
+        node = self.get(root, "wall_method")
+        # mirrors of many faces take most of the time of a run
+        shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
+        asked = self.text(node) if node is not None else "" if basin.solids or basin.box_motion else "contact"
+        basin.method = asked if asked not in ("", "auto") else "mixed" if shaped else "mirrors"
+        if node is not None:
+            if asked not in (*METHODS, "auto"):
+                self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")
+
+    def fill(self, basin: Basin) -> None:
+        """Lattices of the bodies of water, cells beside each other over all of the scene; water keeps out of what is solid."""
+        dx, origin = basin.spacing, self._origin(basin)
+        for shape, node in basin.fills:
+            low, high = (np.array(v) for v in (shape.low, shape.high))
+            if basin.box:
+                low, high = np.maximum(low, basin.box[0]), np.minimum(high, basin.box[1])
+            first = np.floor((low - origin) / dx + 1e-6)
+            n = np.maximum(np.ceil((high - origin) / dx - 1e-6) - first, 0)
+            if shape.dim == 2:
+                n[2] = 1
+            if not np.all(n > 0) or float(np.prod(n)) > MOST_ENTITIES:
+                self.error(node, f"the lattice of '{shape.name}' would have {float(np.prod(n)):.3g} cells; 1 to {MOST_ENTITIES:.0e} are possible")
+                continue
+            corner = origin + first * dx
+            lattice = Lattice(shape.dim, (float(corner[0]), float(corner[1]), float(corner[2])), dx, (int(n[0]), int(n[1]), int(n[2])))
+            lattice.solids = [Near(shape)]
+            self.add_entities(node, float(np.prod(n)))
+            basin.water.lattices.append(lattice)
+        # contact acts at half a spacing
+        out = [Near(solid.shape, (0.25 if solid.mirrors(basin.method) else 0.5) * dx * (1 - 1e-6)) for solid in basin.solids
+               if solid.closed or solid.shape.ground]
+        for lattice in basin.water.lattices:
+            lattice.without = out
+
+    @staticmethod
+    def _origin(basin: Basin) -> np.ndarray:
+        if basin.box:
+            return np.array(basin.box[0])
+        if basin.water.lattices:
+            return np.array(basin.water.lattices[0].low)
+        return np.array(basin.fills[0][0].low)
+
+

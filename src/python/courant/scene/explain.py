@@ -1,0 +1,61 @@
+"""The choices that a scene leaves out, what was taken and why, and the cards that they became."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .model import Model
+from .numbers import number_text
+
+if TYPE_CHECKING:
+    from .basin import Basin
+
+
+def explain_basin(basin: Basin, model: Model) -> None:
+    up = "xyz"[basin.dim - 1]
+
+    def add(choice: str, reason: str, cards: str) -> None:
+        model.choices.append((choice, reason, cards))
+
+    add(f"{basin.dim} dimensions, {up} upwards", "corners have two components in the plane, three in space", "*CONTROL_SPH IDIM")
+    add(f"sound speed {number_text(basin.sound_speed)}", "given" if basin.speed_given else
+        "twenty times the speed of a fall over the height of the water: a blow squeezes it by a twentieth; softer than real water, so that steps are longer",
+        "*EOS_LINEAR_POLYNOMIAL C1")
+    add(f"artificial viscosity {number_text(basin.friction)}", "given" if basin.viscosity is not None else
+        "damps the sound of blows" + (", half of that with contact alone, as density diffusion does the rest" if basin.mirrors else ""), "*HOURGLASS Q2")
+    add("the water takes tension" if basin.tension else "the water takes no tension", "water under suction stays in one piece" if basin.tension else "given", "*MAT_NULL PC")
+    add(f"steps of {number_text(basin.step_factor)} of the longest stable ones", "beside mirrors still water then keeps its energy to 0.2 %, at 0.9 to 1 %" if basin.mirrors else
+        "the usual factor", "*CONTROL_TIMESTEP TSSFAC")
+    if basin.box or basin.solids:
+        right = "beside mirrors pressure is right in all rows, where contact alone gives 1.39 of it in the lowest"
+        cheap = "shells push particles back that come nearer than half a spacing; cheap, but the lowest row has 1.39 of its pressure"
+        dear = "; walls of other shapes act by contact, as mirrors of many faces take most of the time of a run; bodies are mirrors, as contact lets them sink too deep"
+        reason = {"mirrors": right, "contact": cheap, "mixed": right + dear}[basin.method]
+        add({"mirrors": "walls are mirrors", "contact": "walls act by contact", "mixed": "box and bodies are mirrors, other walls act by contact"}[basin.method], reason,
+            ("*COURANT_WALL_SUPPORT METHOD 1, " if basin.mirrors else "") + "*CONTACT_AUTOMATIC_NODES_TO_SURFACE")
+    if basin.mirrors:
+        add("quintic spline, density diffusion 0.1", "a lattice under the cubic spline resists shear, which bodies afloat feel; diffusion smooths pressure",
+            "*SECTION_SPH SPHKERN, *COURANT_DENSITY_DIFFUSION")
+        pressure = basin.water.pressure
+        add(f"pressure at the start {pressure.text}" if pressure else "no pressure at the start", "still water does not begin with a blow" if pressure else
+            "the water moves, is not on the floor of a box, or has several surfaces; water: pressure gives one", "*INITIAL_STRESS_SPH" if pressure else "none")
+    for solid in basin.solids:
+        if solid.free:
+            mass, centre, _ = solid.shape.inertia(solid.density)
+            add(f"'{solid.shape.name}' weighs {number_text(mass)}, centre at {', '.join(f'{v:.4g}' for v in centre)}",
+                "from its volume and density, as if it were filled evenly", f"*PART_INERTIA {solid.part}")
+        elif solid.motion:
+            add(f"'{solid.shape.name}' moves along {' and '.join(solid.motion)}", "given", f"*BOUNDARY_PRESCRIBED_MOTION_RIGID {solid.part}")
+        else:
+            add(f"'{solid.shape.name}' is held", "walls do not move without a motion", f"*PART {solid.part}, *MAT_RIGID 2")
+        add(f"water keeps out of '{solid.shape.name}'" if solid.closed or solid.shape.ground else f"'{solid.shape.name}' is thin: water on both sides",
+            "closed shapes are solid; open ones have no inside", "*ELEMENT_SPH")
+    if any(solid.free for solid in basin.solids):
+        add("bodies touch walls" if basin.dim == 3 else "bodies pass through walls", "all that can touch does" if basin.dim == 3 else
+            "the program knows no contact of elements in the plane", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE" if basin.dim == 3 else "none")
+    add(f"states each {number_text(basin.output)}, histories each {number_text(basin.output / 10)}", "a hundredth and a thousandth of the end, if not given",
+        "*DATABASE_BINARY_D3PLOT, *DATABASE_GLSTAT, *DATABASE_MATSUM")
+
+
+def explained(model: Model) -> str:
+    """One choice after the other: what, why, where in the deck."""
+    return "".join(f"{choice}\n  why: {reason}\n  cards: {cards}\n" for choice, reason, cards in model.choices) or "the scene leaves nothing open: its cards are its own\n"

@@ -1,0 +1,258 @@
+"""A scene in Python: the same description as one in YAML, built by calls.
+
+scene = courant.Scene("house in a dam break", spacing=0.02, end=1.5)
+scene.water(low=(0, 0, 0), high=(0.6, 0.6, 0.4))
+scene.box(low=(0, 0, 0), high=(2, 0.6, 1), open=["top"])
+scene.wall("house.stl", scale=0.001, move=(1.2, 0.2, 0))
+run = scene.run("results")
+print(run.verdict, run.states[-1]["pressure"].max())
+"""
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from os import PathLike, fspath, path
+from pathlib import Path
+from typing import Any, Union
+
+import numpy as np
+import yaml
+
+from ..diagnostics import CourantError, Diagnostics
+from ..files import OutputError, write_file
+from ..words import shortest
+from ..yaml_map import Node, is_list
+from .command import write_deck
+from .explain import explained
+from .model import Model
+from .node_reader import Mark
+from .reader import SceneReader
+from .shape_reader import DataNode
+
+Number = Union[float, str]  # also an expression of the scene's parameters: "height / n"
+Point = Sequence[Number]  # two components in the plane, three in space
+_RESOLVER = yaml.resolver.Resolver()
+
+
+def _caller() -> Mark:
+    """Where the call into this package stands."""
+    frame = sys._getframe(1)
+    while frame.f_back and str(frame.f_globals.get("__name__", "")).partition(".")[0] == "courant":
+        frame = frame.f_back
+    return Mark(path.relpath(frame.f_code.co_filename) if path.isabs(frame.f_code.co_filename) else frame.f_code.co_filename, frame.f_lineno)
+
+
+def _node(value: Any, mark: Mark) -> Node:
+    """A value as it would stand in YAML."""
+    if isinstance(value, yaml.Node):
+        return value
+    if isinstance(value, (bool, np.bool_)):
+        return yaml.ScalarNode("tag:yaml.org,2002:bool", "true" if value else "false", mark, mark)
+    if isinstance(value, (int, float, np.integer, np.floating)):
+        value = shortest(float(value))
+    if isinstance(value, (str, PathLike)):
+        text = fspath(value)
+        tag = _RESOLVER.resolve(yaml.ScalarNode, text, (True, False))
+        tag = "tag:yaml.org,2002:str" if tag.endswith((":null", ":bool", ":timestamp")) else tag
+        return yaml.ScalarNode(tag, text, mark, mark, style="|" if "\n" in text else None)
+    if isinstance(value, Mapping):
+        return yaml.MappingNode("tag:yaml.org,2002:map", [(_node(str(key), mark), _node(one, mark)) for key, one in value.items()], mark, mark, flow_style=True)
+    if isinstance(value, (list, tuple, set, frozenset)) or (isinstance(value, np.ndarray) and value.ndim in (1, 2)):
+        return yaml.SequenceNode("tag:yaml.org,2002:seq", [_node(one, mark) for one in value], mark, mark, flow_style=True)
+    return DataNode(value, mark)
+
+
+class Scene:
+    """What happens in a run. Numbers may be expressions of the scene's parameters, as texts. Two components make a scene of the plane with y upwards,
+    three one of space with z upwards. Numbers are those of SI units; in others give `density` and `gravity`, too."""
+
+    def __init__(self, title: str = "untitled scene", *, spacing: Number, end: Number, output: Number | None = None, gravity: Number | None = None,
+                 density: Number | None = None, sound_speed: Number | None = None, viscosity: Number | None = None, tension: bool | None = None,
+                 velocity: Point | None = None, pressure: Number | None = None, wall_method: str | None = None,
+                 parameters: Mapping[str, Number] | None = None) -> None:
+        """`spacing` of particles [L]; `end` of the run, `output`: interval of states [T]; of the water: `density` [M/L3], `sound_speed` [L/T], linear
+        coefficient `viscosity` [-], `tension`: whether it may pull, `velocity` [L/T] and `pressure` [M/LT2] at the start, also by x, y, z;
+        `wall_method`: "mirrors", "contact" or "mixed", box and bodies as mirrors and other walls by contact; `explain` tells what is taken for what is left out."""
+        mark = _caller()
+        self._path, self._folder = mark.name, ""
+        self._name, self._overrides, self._of_python = path.basename(mark.name), dict[str, str](), True
+        water = {"spacing": spacing, "density": density, "sound_speed": sound_speed, "viscosity": viscosity, "tension": tension, "velocity": velocity,
+                 "pressure": pressure}
+        self._root = _node({}, mark)
+        self._root.flow_style = False
+        for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "wall_method": wall_method}.items():
+            if value is not None:
+                self._set(self._root, key, value, mark)
+        if wall_method is None:
+            self._set(self._root, "wall_method", "auto", mark)
+        self._set(self._root, "water", {key: value for key, value in water.items() if value is not None}, mark)
+        self._get("water").flow_style = False
+
+    @classmethod
+    def from_yaml(cls, file: str | PathLike[str], **parameters: Number) -> Scene:
+        """The scene of a YAML file, with other values for some of its parameters. Raises CourantError."""
+        scene = cls.__new__(cls)
+        scene._path = fspath(file)
+        scene._folder, scene._name, scene._of_python = path.dirname(scene._path), path.basename(scene._path), False
+        scene._overrides = {name: value if isinstance(value, str) else shortest(float(value)) for name, value in parameters.items()}
+        diagnostics = Diagnostics()
+        try:
+            scene._root = SceneReader(scene._path, {}, diagnostics).load(scene._path)
+        except OSError:
+            diagnostics.error(scene._path, "the scene cannot be read", "check the name and the permissions")
+        if not diagnostics.ok:
+            raise CourantError(diagnostics)
+        scene._model()
+        return scene
+
+    # what is in it
+
+    def water(self, low: Any = None, high: Point | None = None, **keys: Any) -> Scene:
+        """A box of water from `low` to `high` [L], in whole spacings, with `where` (a condition or expression of x, y, z) and `jitter`; or a body of it
+        within a closed shape: a file, a mesh, or keys of `wall`."""
+        mark = _caller()
+        if high is not None or "low" in keys or "high" in keys:
+            self._append(("water", "blocks"), {"low": low, "high": high, **keys}, mark)
+        else:
+            self._append(("water", "bodies"), self._shape(low, keys), mark)
+        return self
+
+    def box(self, low: Point, high: Point, open: Sequence[str] = (), motion: Mapping[str, str] | None = None) -> Scene:  # noqa: A002
+        """Fixed walls around a box [L] but for its `open` sides: left, right, bottom, top, in space front and back; `motion`: its displacements by axis,
+        formulas of TIME [L]."""
+        entry = {"low": low, "high": high} | ({"open": list(open)} if open else {}) | ({"motion": motion} if motion else {})
+        self._set(self._root, "box", entry, _caller())
+        return self
+
+    def wall(self, shape: Any = None, **keys: Any) -> Scene:
+        """A rigid wall: the surface of a file (STL, OBJ, PLY, meshes of Gmsh and others; CSV, DXF, SVG in the plane), a mesh of PyVista, VTK, meshio or
+        trimesh, (points, triangles), or one of `box={"low", "high"}`, `cylinder={"base", "top", "radius"}`, `sphere={"centre", "radius"}`,
+        `circle`, `line=[[x, y], ...]`, `plate={"origin", "edge1", "edge2"}`. `scale`, `turn` (degrees) and `move` bring it to its position, `close` fills
+        holes, `open` takes a surface with holes as thin, `ground` makes all below it solid, `motion` drives it."""
+        self._append(("walls",), self._shape(shape, keys), _caller())
+        return self
+
+    def body(self, shape: Any = None, **keys: Any) -> Scene:
+        """A rigid body that moves freely: a closed shape as of `wall`, with its `density` [M/L3] or `mass` [M], `velocity` [L/T], and `hold`: directions
+        x, y, z and turns rx, ry, rz that it does not take."""
+        self._append(("bodies",), self._shape(shape, keys), _caller())
+        return self
+
+    def keywords(self, text: str) -> Scene:
+        """Cards beside those of the scene; of control cards that stand twice the last counts. ${EXPRESSION:10} is filled in."""
+        self._append(("keywords",), text if text.endswith("\n") else text + "\n", _caller())
+        return self
+
+    # what becomes of it
+
+    def deck(self) -> str:
+        """The text of the deck. Raises CourantError with all that is wrong."""
+        from .deck import deck_pieces
+
+        diagnostics = Diagnostics()
+        pieces = deck_pieces(self._model(diagnostics), self._name, diagnostics, self._of_python)
+        self._raise(diagnostics)
+        return b"".join(pieces).decode("utf-8", "surrogateescape")
+
+    def write(self, file: str | PathLike[str]) -> Path:
+        """Writes the deck, and tells on standard error what was repaired. Raises CourantError."""
+        diagnostics = Diagnostics()
+        model = self._model(diagnostics)
+        write_deck(model, self._name, fspath(file), diagnostics, self._of_python)
+        self._raise(diagnostics)
+        sys.stderr.write(diagnostics.text())
+        return Path(file)
+
+    def to_yaml(self, file: str | PathLike[str] | None = None) -> str:
+        """The scene in YAML, also written to a file where one is named. Raises CourantError where it holds meshes that are in no file."""
+        diagnostics = Diagnostics()
+        for node in _all(self._root):
+            if isinstance(node, DataNode):
+                diagnostics.error(SceneReader(self._path, {}, diagnostics).at(node), f"a mesh in memory, {node.value}, has no form in YAML",
+                                  "write it to a file, and name that")
+        self._raise(diagnostics)
+        text: str = yaml.serialize(self._root, Dumper=yaml.SafeDumper, width=150, allow_unicode=True)
+        if file is not None:
+            try:
+                write_file(Path(file), text, named=True)
+            except OutputError as fault:
+                diagnostics.error(fspath(file), str(fault))
+                raise CourantError(diagnostics) from None
+        return text
+
+    def explain(self) -> str:
+        """Each choice that was made for the scene, with its reason and its cards."""
+        return explained(self._model())
+
+    def run(self, folder: str | PathLike[str] = "results", **options: Any) -> Any:
+        """Writes the deck to the folder and runs it: courant.run has the options and what is raised."""
+        from ..files import make_folder
+        from ..running import run
+
+        diagnostics = Diagnostics()
+        try:
+            make_folder(Path(folder))
+        except OutputError as fault:
+            diagnostics.error(fspath(folder), str(fault))
+        self._raise(diagnostics)
+        return run(self.write(Path(folder, Path(self._name).stem + ".k")), folder, **options)
+
+    # the description
+
+    @staticmethod
+    def _raise(diagnostics: Diagnostics) -> None:
+        if not diagnostics.ok:
+            raise CourantError(diagnostics)
+
+    def _model(self, diagnostics: Diagnostics | None = None) -> Model:
+        found = diagnostics if diagnostics is not None else Diagnostics()
+        reader = SceneReader(self._path, self._overrides, found)
+        reader.folder = self._folder
+        model = reader.read(self._root)
+        self._raise(found)
+        return model
+
+    @staticmethod
+    def _shape(shape: Any, keys: dict[str, Any]) -> dict[str, Any]:
+        if shape is None:
+            return keys
+        return {"file" if isinstance(shape, (str, PathLike)) else "mesh": shape if isinstance(shape, (str, PathLike)) else _Held(shape), **keys}
+
+    @staticmethod
+    def _set(node: Node, key: str, value: Any, mark: Mark) -> None:
+        made = DataNode(value.thing, mark) if isinstance(value, _Held) else _node(value, mark)
+        node.value = [entry for entry in node.value if entry[0].value != key] + [(_node(key, mark), made)]
+
+    def _get(self, key: str) -> Node:
+        return next(value for name, value in self._root.value if name.value == key)
+
+    def _append(self, keys: tuple[str, ...], value: Any, mark: Mark) -> None:
+        """Adds an element to a list of the description, which is made where it is not there."""
+        node = self._root if len(keys) == 1 else self._get(keys[0])
+        known = next((one for name, one in node.value if name.value == keys[-1]), None)
+        if known is None:
+            self._set(node, keys[-1], [], mark)
+            known = node.value[-1][1]
+            known.flow_style = False
+        elif not is_list(known):
+            old = known
+            self._set(node, keys[-1], [], mark)
+            known = node.value[-1][1]
+            known.value.append(old)
+        entry = _node({}, mark) if isinstance(value, dict) else _node(value, mark)
+        if isinstance(value, dict):
+            for key, one in value.items():
+                self._set(entry, key, one, mark)
+        known.value.append(entry)
+
+
+class _Held:
+    """A mesh, which is not to be taken for numbers of YAML."""
+
+    def __init__(self, thing: Any) -> None:
+        self.thing = thing
+
+
+def _all(node: Node) -> list[Node]:
+    inner = [one for entry in node.value for one in (entry if isinstance(entry, tuple) else (entry,))] if not isinstance(node, yaml.ScalarNode) else []
+    return [node, *(found for one in inner for found in _all(one))]

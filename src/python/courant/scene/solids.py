@@ -1,0 +1,190 @@
+"""Walls and rigid bodies of a scene, and the cards that they need."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from ..diagnostics import Location
+from .model import Part, Vector
+from .placeholders import substitute
+from .shapes import Shape
+
+if TYPE_CHECKING:
+    from .basin import Basin
+
+FREE = ("x", "y", "z", "rx", "ry", "rz")
+FIRST_WALL, FIRST_BODY, FIRST_CURVE = 12, 101, 901
+SOLIDS, HELD, BODIES, MIRRORS = 2, 3, 4, 5  # sets of parts: all, those that do not move freely, those that do, those that mirror
+_HELD_BY = {"": 0, "x": 1, "y": 2, "z": 3, "xy": 4, "yz": 5, "xz": 6, "xyz": 7}  # CON1 and CON2 of *MAT_RIGID
+
+
+@dataclass
+class Solid:
+    """A rigid shape, held if nothing else is said."""
+
+    shape: Shape
+    closed: bool = True
+    motion: dict[str, str] = field(default_factory=dict)  # displacements by axis, formulas of TIME [L]
+    free: bool = False  # moves by the forces on it
+    density: float = 0.0  # of a free one [M/L3]
+    velocity: Vector | None = None  # of a free one, at the start [L/T]
+    hold: set[str] = field(default_factory=set)  # directions and turns that a free one does not take
+    where: Location = field(default_factory=Location)
+    part: int = 0
+
+    def mirrors(self, method: str) -> bool:
+        """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
+        return method == "mirrors" or (method == "mixed" and self.free)
+
+
+_RIGID = """\
+*MAT_RIGID
+$#     mid        ro         e        pr
+${mid:10}${ro:10}${5e4 * rho0 * c0^2:10}       0.3
+$#     cmo      con1      con2
+         1${con1:10}${con2:10}
+$#      a1        a2        a3        v1        v2        v3
+         0         0         0         0         0         0
+"""
+
+_MOTION = """\
+*BOUNDARY_PRESCRIBED_MOTION_RIGID
+$#     pid       dof       vad      lcid        sf
+${pid:10}${dof:10}         2${lcid:10}       1.0
+*DEFINE_CURVE_FUNCTION
+$#    lcid
+${lcid:10}
+"""
+
+# A particle's contact stiffness is SLSFAC SFSA = 1 of that of the water itself, rho c^2; walls are stiffer.
+_SURFACES = """\
+*SECTION_SHELL
+$#   secid    elform      shrf       nip
+         2         2       1.0         2
+$#      t1        t2        t3        t4
+${t:10}${t:10}${t:10}${t:10}
+*CONTROL_CONTACT
+$#  slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien
+       0.1         0         1         0         1         0         1
+*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID
+$#     cid title
+         1water against walls and bodies
+$#   surfa     surfb  surfatyp  surfbtyp
+         1         2         3         2
+$#      fs        fd        dc        vc       vdc    penchk        bt        dt
+         0         0         0         0         0         0         0    1.0e20
+$#    sfsa      sfsb
+        10${sfsb:10}
+*DATABASE_RCFORC
+$#      dt
+${output / 10:10}
+"""
+
+_TOUCHING = """\
+$ Shapes by contact alone: half of their thickness and half a spacing just touch
+*SECTION_SHELL
+$#   secid    elform      shrf       nip
+         3         2       1.0         2
+$#      t1        t2        t3        t4
+${touch:10}${touch:10}${touch:10}${touch:10}
+"""
+
+_MIRRORS = """\
+$ Mirrors of the water beside them (METHOD 1): pressure is right in the rows beside these walls, too
+*COURANT_WALL_SUPPORT
+$#   surfb  surfbtyp        cf    method
+         5         2       0.0         1
+"""
+
+_BODIES = """\
+*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_ID
+$#     cid title
+         2bodies against walls
+$#   surfa     surfb  surfatyp  surfbtyp
+         4         3         2         2
+$#      fs        fd        dc        vc       vdc    penchk        bt        dt
+         0         0         0         0         0         0         0    1.0e20
+$#    sfsa      sfsb
+       1.0       1.0
+"""
+
+_MOVING = """\
+*DATABASE_RBDOUT
+$#      dt
+${output / 10:10}
+"""
+
+
+def _held(directions: Iterable[str]) -> int:
+    return _HELD_BY["".join(sorted(directions))]
+
+
+def part_set(number: int, parts: list[int]) -> str:
+    rows = [parts[k : k + 8] for k in range(0, len(parts), 8)]
+    return f"*SET_PART_LIST\n$#     sid\n{number:10}\n$#    pid1      pid2      pid3      pid4      pid5      pid6      pid7      pid8\n" \
+        + "".join("".join(f"{pid:10}" for pid in row) + "\n" for row in rows)
+
+
+def number_parts(solids: list[Solid]) -> None:
+    wall, body = FIRST_WALL, FIRST_BODY
+    for solid in solids:
+        if solid.free:
+            solid.part, body = body, body + 1
+        else:
+            solid.part, wall = wall, wall + 1
+
+
+def part_of(solid: Solid, method: str) -> Part:
+    """Fixed walls share material 2; what moves has one of its own, with the number of the part."""
+    moves = solid.free or bool(solid.motion)
+    part = Part(id=solid.part, title=solid.shape.name[:70], section=2 if method == "contact" or solid.mirrors(method) else 3, material=solid.part if moves else 2, merge=True, plates=[solid.shape], where=solid.where)
+    if solid.free:
+        part.inertia, part.velocity = solid.shape.inertia(solid.density), solid.velocity
+    return part
+
+
+def material(basin: Basin, part: int, held: set[str], density: float = 0.0) -> str:
+    """Of what moves but in the directions that are held; `density`: 0 for walls, whose mass does not matter."""
+    variables = basin.variables() | {"mid": float(part), "ro": density or 7.85 * basin.density, "con1": float(_held(held & {"x", "y", "z"})),
+                                     "con2": float(_held(one[1] for one in held if one[0] == "r"))}
+    return substitute(_RIGID, variables)
+
+
+def motion_cards(part: int, motion: dict[str, str], first_curve: int) -> str:
+    out = ""
+    for k, (axis, formula) in enumerate(motion.items()):
+        out += substitute(_MOTION, {"pid": float(part), "dof": float("xyz".index(axis) + 1), "lcid": float(first_curve + k)}) + formula + "\n"
+    return out
+
+
+def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
+    """All that walls and bodies need beside the material of fixed walls, which `basin` has written."""
+    held = ([walls.id] if walls else []) + [solid.part for solid in basin.solids if not solid.free]
+    bodies = [solid.part for solid in basin.solids if solid.free]
+    flat = {"z", "rx", "ry"} if basin.dim == 2 else set[str]()
+    out = [material(basin, solid.part, solid.hold | flat, solid.density) for solid in basin.solids if solid.free]
+    curve = FIRST_CURVE
+    motions = [(solid.part, solid.motion) for solid in basin.solids if solid.motion]
+    if walls and basin.box_motion:
+        walls.material = walls.id
+        motions.append((walls.id, basin.box_motion))
+    for part, motion in motions:
+        out.append(material(basin, part, set(FREE) - set(motion)))
+        out.append(motion_cards(part, motion, curve))
+        curve += len(motion)
+    out.append(part_set(SOLIDS, held + bodies))
+    variables = basin.variables()
+    out.append(substitute(_SURFACES, variables))
+    mirrors = [walls.id] if walls and basin.mirrors else []
+    mirrors += [solid.part for solid in basin.solids if solid.mirrors(basin.method)]
+    if mirrors:
+        out += [part_set(MIRRORS, mirrors), _MIRRORS]
+    if basin.method == "mixed":
+        out.append(substitute(_TOUCHING, variables))
+    if bodies and held and basin.dim == 3:  # elements of the plane do not touch each other
+        out += [part_set(HELD, held), part_set(BODIES, bodies), _BODIES]
+    if bodies or motions:
+        out.append(substitute(_MOVING, variables))
+    return out
+

@@ -1,0 +1,206 @@
+"""Surfaces from files and from objects of other libraries, made sound: one vertex for each point, normals outwards, closed or refused with the position
+of the hole."""
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..files import note_input
+from ..optional import MissingModule, module
+from .outlines import OUTLINES, read_outline
+from .shapes import Shape, faulty_edges, holes, merged, oriented, polyline
+
+_VTK = {".stl": ("vtkIOGeometry", "vtkSTLReader"), ".obj": ("vtkIOGeometry", "vtkOBJReader"), ".ply": ("vtkIOPLY", "vtkPLYReader"),
+        ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader")}
+_MESHES = (".msh", ".vtk", ".vtu", ".inp", ".med", ".off", ".bdf", ".nas", ".unv")
+KNOWN = (*_VTK, *_MESHES, *OUTLINES)
+_TOLERANCE = 1e-6  # of the size, within which vertices are the same
+
+
+class ShapeFault(Exception):
+    """Why there is no shape, and what to do."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message, self.hint = message, hint
+
+
+def read_shape(path: Path) -> Shape:
+    """The surface or polyline of a file, as it is. Raises ShapeFault."""
+    end = path.suffix.lower()
+    if end not in KNOWN:
+        raise ShapeFault(f"'{path}': files that end with '{end}' are not read here", f"known: {', '.join(KNOWN)}")
+    if not os.path.isfile(path):
+        raise ShapeFault(f"'{path}' is not there", "paths of a scene begin at its folder")
+    note_input(path)
+    try:
+        if end in OUTLINES:
+            return read_outline(path)
+        shape = _by_vtk(path, *_VTK[end]) if end in _VTK else shape_of(module("meshio").read(path))
+    except MissingModule as fault:
+        raise ShapeFault(str(fault)) from None
+    except ShapeFault:
+        raise
+    except (Exception, SystemExit) as fault:  # libraries announce faults of files in many ways
+        raise ShapeFault(f"'{path}' cannot be read: {' '.join(str(fault).split())[:200]}") from None
+    if not len(shape.faces):
+        raise ShapeFault(f"'{path}' holds no faces", "is it whole, and of the format that its name tells?")
+    return replace(shape, name=path.stem)
+
+
+def _by_vtk(path: Path, home: str, name: str) -> Shape:
+    reader = getattr(module(f"vtkmodules.{home}"), name)()
+    module("vtkmodules.vtkCommonCore").vtkObject.GlobalWarningDisplayOff()
+    reader.SetFileName(str(path))
+    reader.Update()
+    return _of_vtk(reader.GetOutput())
+
+
+def _of_vtk(data: Any) -> Shape:
+    """A vtkPolyData, or the outer surface of any other data set of VTK."""
+    filters = module("vtkmodules.vtkFiltersCore")
+    if not data.IsA("vtkPolyData"):
+        surface = module("vtkmodules.vtkFiltersGeometry").vtkGeometryFilter()
+        surface.SetInputData(data)
+        surface.Update()
+        data = surface.GetOutput()
+    triangles = filters.vtkTriangleFilter()
+    triangles.SetInputData(data)
+    triangles.PassLinesOff()
+    triangles.PassVertsOff()
+    triangles.Update()
+    return _arrays(triangles.GetOutput())
+
+
+def _arrays(data: Any) -> Shape:
+    to_numpy = module("vtkmodules.util.numpy_support").vtk_to_numpy
+    points = data.GetPoints()
+    if points is None or not data.GetNumberOfPolys():
+        return Shape(np.zeros((0, 3)), np.zeros((0, 3), dtype=int), 3)
+    faces = to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return Shape(np.array(to_numpy(points.GetData()), dtype=float), np.array(faces, dtype=int), 3)
+
+
+def shape_of(thing: Any) -> Shape:
+    """The surface of a mesh of PyVista, VTK, meshio or trimesh, of (points, triangles), or of points (n, 2) of a closed polyline. Raises ShapeFault."""
+    if hasattr(thing, "IsA"):
+        return _of_vtk(thing)
+    if hasattr(thing, "vertices") and hasattr(thing, "faces"):
+        return Shape(np.asarray(thing.vertices, dtype=float), np.asarray(thing.faces, dtype=int), 3)
+    if hasattr(thing, "points") and hasattr(thing, "cells"):
+        return _of_meshio(thing)
+    if isinstance(thing, tuple) and len(thing) == 2 and np.ndim(thing[0]) == 2 and np.ndim(thing[1]) == 2 and np.shape(thing[1])[1] == 3 \
+            and np.shape(thing[0])[1] == 3:
+        return Shape(np.asarray(thing[0], dtype=float), np.asarray(thing[1], dtype=int), 3)
+    try:
+        xy = np.asarray(thing, dtype=float)
+    except (TypeError, ValueError):
+        xy = np.zeros(0)
+    if xy.ndim == 2 and xy.shape[1] == 2 and len(xy) > 1:
+        return polyline(xy, closed=len(xy) > 2)
+    raise ShapeFault(f"a {type(thing).__name__} is no surface", "give a file, a mesh of PyVista, VTK, meshio or trimesh, (points, triangles), or points (n, 2)")
+
+
+def _of_meshio(mesh: Any) -> Shape:
+    """Its triangles and quadrangles; where it has none, the outer faces of its solids; where it has neither, its lines."""
+    points = np.column_stack([np.asarray(mesh.points, dtype=float), np.zeros((len(mesh.points), 3 - np.shape(mesh.points)[1]))])
+    blocks = [(block.type, np.asarray(block.data, dtype=int)) for block in mesh.cells]
+    faces = [_fan(data, {"triangle": 3, "quad": 4}[kind]) for kind, data in blocks if kind in ("triangle", "quad")]
+    if not faces:
+        faces = [_outer([data[:, corners] for kind, data in blocks for corners in _SIDES.get(kind, ())])]
+    if faces and len(faces[0]):
+        return _used(points, np.concatenate(faces), 3)
+    lines = [data for kind, data in blocks if kind == "line"]
+    return _used(points, np.concatenate(lines) if lines else np.zeros((0, 3), dtype=int), 2 if lines else 3)
+
+
+_SIDES = {"tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
+          "hexahedron": ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (2, 3, 7, 6), (0, 4, 7, 3), (1, 2, 6, 5)),
+          "wedge": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (0, 3, 5, 2)), "pyramid": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4))}
+
+
+def _fan(faces: np.ndarray, corners: int) -> np.ndarray:
+    return np.concatenate([faces[:, [0, k, k + 1]] for k in range(1, corners - 1)])
+
+
+def _outer(sides: list[np.ndarray]) -> np.ndarray:
+    """Triangles of those sides of solids that only one of them has."""
+    out = []
+    for corners in {side.shape[1] for side in sides}:
+        faces = np.concatenate([side for side in sides if side.shape[1] == corners])
+        _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
+        out.append(_fan(faces[first[count == 1]], corners))
+    return np.concatenate(out) if out else np.zeros((0, 3), dtype=int)
+
+
+def _used(points: np.ndarray, faces: np.ndarray, dim: int) -> Shape:
+    used, numbers = np.unique(faces, return_inverse=True)
+    return Shape(points[used], numbers.reshape(faces.shape), dim)
+
+
+def sound(shape: Shape, closed: bool, close: bool) -> Shape:
+    """With one vertex for each point; where it must be `closed`, without holes, which are filled where `close` asks for it, and with its normals
+    outwards. Raises ShapeFault."""
+    if not np.isfinite(shape.points).all():
+        raise ShapeFault("the shape has coordinates that are no numbers")
+    shape = merged(shape, _TOLERANCE)
+    if not len(shape.faces):
+        raise ShapeFault("the shape has no faces with an area")
+    edges = faulty_edges(shape)
+    if len(edges.free) and close:
+        shape = _filled(shape)
+        edges = faulty_edges(shape)
+    if closed and len(edges.free):
+        found = holes(shape, edges.free)
+        centre, size, count = found[0]
+        where = ", ".join(f"{axis} = {v:.4g}" for axis, v in zip("xyz", centre[: shape.dim]))
+        what = "a hole" if len(found) == 1 else f"{len(found)} holes, the largest"
+        of = f", {size:.3g} across, of {count} edges" if shape.dim == 3 else ""
+        raise ShapeFault(f"the {'surface' if shape.dim == 3 else 'line'} is not closed: {what} at {where}{of}", "close: true, in Python close=True, fills holes; open: true takes it as thin")
+    if closed and len(edges.crowded):
+        a = shape.points[edges.crowded[0]].mean(axis=0)
+        where = ", ".join(f"{axis} = {v:.4g}" for axis, v in zip("xyz", a[: shape.dim]))
+        raise ShapeFault(f"{len(edges.crowded)} edges have more than two faces, the first at {where}: inside and outside are not clear there",
+                         "unite overlapping bodies in the program that made the file")
+    if not closed:
+        return shape
+    shape = oriented(shape)
+    size = float(np.prod((shape.high - shape.low)[: shape.dim]))
+    if not shape.volume() > 1e-9 * size:
+        raise ShapeFault("the closed shape has no volume")
+    return shape
+
+
+def _filled(shape: Shape) -> Shape:
+    """With its holes closed: by VTK in space, by one line in the plane."""
+    free = faulty_edges(shape).free
+    found = holes(shape, free) if shape.dim == 3 else []
+    if shape.dim == 2:
+        if len(free) != 2:
+            raise ShapeFault(f"the line has {len(free)} open ends, which cannot be joined", "give one closed line")
+        faces = np.concatenate([shape.faces, [[free[0, 0], free[1, 0]]]])
+        return replace(shape, faces=faces, notes=[*shape.notes, "the line closed from its end to its begin"])
+    try:
+        core, data_model = module("vtkmodules.vtkFiltersModeling"), module("vtkmodules.vtkCommonDataModel")
+        support, common = module("vtkmodules.util.numpy_support"), module("vtkmodules.vtkCommonCore")
+    except MissingModule as fault:
+        raise ShapeFault(str(fault)) from None
+    data, points, cells = data_model.vtkPolyData(), common.vtkPoints(), data_model.vtkCellArray()
+    points.SetData(support.numpy_to_vtk(np.ascontiguousarray(shape.points), deep=True))
+    data.SetPoints(points)
+    cells.SetData(3, support.numpy_to_vtkIdTypeArray(np.ascontiguousarray(shape.faces).ravel().astype(np.int64), deep=True))
+    data.SetPolys(cells)
+    fill = core.vtkFillHolesFilter()
+    fill.SetInputData(data)
+    fill.SetHoleSize(1e3 * float(np.max(shape.high - shape.low)))
+    fill.Update()
+    made = merged(_of_vtk(fill.GetOutput()), _TOLERANCE)
+    centres = "; ".join("(" + ", ".join(f"{v:.4g}" for v in centre) + f"), {size:.3g} across" for centre, size, _ in found[:3])
+    return replace(shape, points=made.points, faces=made.faces, notes=[*shape.notes, f"{len(found)} hole{'s' * (len(found) > 1)} closed: {centres}"])
+
+
+__all__ = ["KNOWN", "ShapeFault", "read_shape", "shape_of", "sound"]
