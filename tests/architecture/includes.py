@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "elements": ["loads", "search", "state", "keyword", "model", "laws", "extension", "shell"],
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces"],
     "output": ["state"],
+    "d3plot": ["elements", "rigid", "extension", "output"],
     "time": ["state", "search", "output"],
     "generate": ["base", "output"],
     "vtk": ["state", "output"],

@@ -1,4 +1,4 @@
-"""python3 -m courant post|verify ..."""
+"""python3 -m courant post|report|verify ..."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def _with_modules() -> str:
 
 def main(words: list[str]) -> int:
     """The exit code of the call."""
-    calls = ("post", "verify")
+    calls = ("post", "report", "verify")
     if not words or words[0] in ("-h", "--help"):
-        print("usage: courant post RECIPE DIR\n       courant verify SUITE\n\n`courant post --help` tells the options of a call.")
+        print("usage: courant post RECIPE DIR\n       courant report DIR\n       courant verify SUITE\n\n`courant post --help` tells the options of a call.")
         return 0 if words else 1
     if words[0] not in calls:
         near = did_you_mean(words[0], calls).removeprefix("did you mean ").removesuffix("? ")
-        hint = f"did you mean `courant {near}`?" if near else "the calls are post and verify"
+        hint = f"did you mean `courant {near}`?" if near else "the calls are post, report and verify"
         sys.stderr.write(f"error: '{words[0]}' is no call of this package\n  hint: {hint}\n")
         return 1
     if missing := _with_modules():
@@ -42,6 +42,8 @@ def main(words: list[str]) -> int:
         return 3
     if words[0] == "post":
         from .post.command import main as call
+    elif words[0] == "report":
+        from .report import main as call  # type: ignore[assignment]
     else:
         from .verify.cli import main as call  # type: ignore[assignment]
     return call(words[1:])
