@@ -311,7 +311,7 @@ class Run {
 
   void write_fields(World& world, const Clock& clock) {
     s_.guard().look(world, clock);  // states that are written are sound
-    s_.show_wall_forces();
+    if (fields_.with_vtk()) s_.show_wall_forces();
     writer_.submit(
         [this, state = fields_.take(world, clock, state_++)]() mutable { fields_.write(std::move(state)); },
         weight_of_state);

@@ -22,7 +22,7 @@ StateFiles::StateFiles(const std::filesystem::path& dir, Simulation& simulation)
     d3plot_.emplace(dir, model_->extent().bits, model_->state_bytes(simulation.world()), model_->most_bytes);
 }
 
-StateFiles::State StateFiles::take(const World& world, const Clock& clock, int number) {
+StateFiles::State StateFiles::take(World& world, const Clock& clock, int number) {
   State out{number};
   if (with_vtk()) out.vtk = vtk_.take(world, clock.t, number);
   if (!model_) return out;

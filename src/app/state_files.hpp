@@ -23,7 +23,8 @@ class StateFiles {
     std::optional<FieldState> vtk{};
     std::string d3plot_head{}, d3plot{};
   };
-  State take(const World& world, const Clock& clock, int number);
+  bool with_vtk() const { return !model_ || model_->beside_vtk; }
+  State take(World& world, const Clock& clock, int number);
   void write(State state);
   void write_failed(const World& world, Real t) { vtk_.write_failed(world, t); }
   void keep(Archive& archive);
@@ -33,8 +34,6 @@ class StateFiles {
   std::int64_t bytes() const { return vtk_.bytes() + (d3plot_ ? d3plot_->bytes() : 0); }
 
  private:
-  bool with_vtk() const { return !model_ || model_->beside_vtk; }
-
   std::filesystem::path dir_;
   D3plotModel* model_;  ///< null: no d3plot
   FieldWriter vtk_;

@@ -71,7 +71,7 @@ class D3plotModel : public Pass {
   /// Control words, geometry, numbers and titles: the file `d3plot`.
   std::string head(const World& world) const;
   /// The words of the state at t^n with x, p and f known. The number of words never changes.
-  std::string state(const World& world, const Clock& clock);
+  std::string state(World& world, const Clock& clock);
   std::size_t state_bytes(const World& world) const;
 
  private:
@@ -81,14 +81,17 @@ class D3plotModel : public Pass {
     std::optional<Index> segment{};  ///< of a face without a group
   };
   void find_sources(const World& world);
+  /// Where the particles of the mesh are in the world, which sorts them anew now and then; -1 none.
+  std::vector<Index> find_particles(const World& world) const;
   std::size_t global_words(const World& world) const;
   void put_globals(const World& world, Words& out) const;
-  void put_nodes(const World& world, const Clock& clock, Words& out) const;
+  void put_nodes(const World& world, const Clock& clock, const std::vector<Index>& particles,
+                 Words& out) const;
   void put_elements(const World& world, Words& out) const;
   void put_solid(const World& world, const Source& source, Words& out) const;
   void put_beam(const World& world, const Source& source, Words& out) const;
   void put_shell(const World& world, const Source& source, Words& out) const;
-  void put_particles(const World& world, Words& out) const;
+  void put_particles(const World& world, const std::vector<Index>& particles, Words& out) const;
   bool may_delete() const { return !(mesh_.solids.empty() && mesh_.beams.empty() && mesh_.shells.empty()); }
   std::size_t elements() const { return mesh_.solids.size() + mesh_.beams.size() + mesh_.shells.size(); }
 

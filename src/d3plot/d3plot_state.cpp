@@ -76,6 +76,31 @@ void D3plotModel::find_sources(const World& world) {
   }
 }
 
+// Ids of a deck are mostly numbered without large gaps: then a table finds them, faster.
+std::vector<Index> D3plotModel::find_particles(const World& world) const {
+  const Particles& p = world.particles;
+  std::vector<Index> out(mesh_.particles.size(), -1);
+  if (out.empty()) return out;
+  const Id low = mesh_.particles.front().id, high = mesh_.particles.back().id;
+  std::vector<Index> table;
+  std::unordered_map<Id, Index> sparse;
+  const bool dense = static_cast<std::size_t>(high - low) < 8 * out.size() + 1024;
+  if (dense) table.assign(static_cast<std::size_t>(high - low) + 1, -1);
+  for (Index i = 0; i < p.size(); ++i)
+    if (!dense)
+      sparse.emplace(p.id[i], i);
+    else if (p.id[i] >= low && p.id[i] <= high)
+      table[static_cast<std::size_t>(p.id[i] - low)] = i;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Id id = mesh_.particles[k].id;
+    if (dense)
+      out[k] = table[static_cast<std::size_t>(id - low)];
+    else if (const auto at = sparse.find(id); at != sparse.end())
+      out[k] = at->second;
+  }
+  return out;
+}
+
 std::size_t D3plotModel::global_words(const World& world) const {
   return 6 + 7 * mesh_.parts.size() + 4 * world.passes.all<const RigidWallReporter>().size();
 }
@@ -125,11 +150,10 @@ void D3plotModel::put_globals(const World& world, Words& out) const {
 }
 
 // Nodes of bodies move with them: v + omega x r, a + alpha x r + omega x (omega x r).
-void D3plotModel::put_nodes(const World& world, const Clock& clock, Words& out) const {
+void D3plotModel::put_nodes(const World& world, const Clock& clock, const std::vector<Index>& particles,
+                            Words& out) const {
   const Nodes& nodes = world.nodes;
   const Particles& p = world.particles;
-  std::unordered_map<Id, Index> particle;
-  for (Index i = 0; i < p.size() && !mesh_.particles.empty(); ++i) particle.emplace(p.id[i], i);
   std::vector<Vec> a(static_cast<std::size_t>(nodes.size()), Vec::Zero());
   for (Index n = 0; n < nodes.size(); ++n)
     if (nodes.follow[n] == 0 && nodes.m[n] > 0) a[static_cast<std::size_t>(n)] = nodes.f.vec(n) / nodes.m[n];
@@ -145,9 +169,8 @@ void D3plotModel::put_nodes(const World& world, const Clock& clock, Words& out) 
   }
   const std::size_t count = mesh_.node_ids.size();
   std::vector<Index> of(count, -1);
-  for (std::size_t k = 0; k < count; ++k)
-    if (node_of_[k] < 0)
-      if (const auto at = particle.find(mesh_.node_ids[k]); at != particle.end()) of[k] = at->second;
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    of[static_cast<std::size_t>(mesh_.particles[k].node[0])] = particles[k];
   const auto each = [&](const auto& of_node, const auto& of_particle, const auto& of_none) {
     for (std::size_t k = 0; k < count; ++k)
       out.vec(node_of_[k] >= 0 ? of_node(node_of_[k]) : of[k] >= 0 ? of_particle(of[k]) : of_none(k));
@@ -229,27 +252,24 @@ void D3plotModel::put_elements(const World& world, Words& out) const {
 
 // Twenty words each: part, < 0 of those that are not active, h, pressure, stress, plastic strain, density,
 // internal energy, number of neighbours, strain, mass. The number of neighbours and the strain are 0.
-void D3plotModel::put_particles(const World& world, Words& out) const {
+void D3plotModel::put_particles(const World& world, const std::vector<Index>& particles, Words& out) const {
   const Particles& p = world.particles;
-  if (mesh_.particles.empty()) return;
-  std::unordered_map<Id, Index> index;
-  for (Index i = 0; i < p.size(); ++i) index.emplace(p.id[i], i);
   const Field<Real>* tau = shared_fields::stress.find(p.fields);
   const Field<Real>* volume = shared_fields::reference_volume.find(p.fields);
   const auto* plastic = dynamic_cast<const Field<Real>*>(p.fields.find(plastic_strain));
-  for (const D3plotElement& one : mesh_.particles) {
-    const auto at = index.find(one.id);
-    if (at == index.end()) {
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const D3plotElement& one = mesh_.particles[k];
+    const Index i = particles[k];
+    if (i < 0) {
       out.real(-one.part - 1);
       out.zeros(19);
       continue;
     }
-    const Index i = at->second;
     const bool active = p.state[i] == particle_active;
     out.real(active ? one.part + 1 : -one.part - 1);
     out.real(p.h[i]);
     out.real(p.p[i]);
-    for (int k = 0; k < 6; ++k) out.real(value_of(tau, i, k) - (k < 3 ? p.p[i] : 0));
+    for (int c = 0; c < 6; ++c) out.real(value_of(tau, i, c) - (c < 3 ? p.p[i] : 0));
     out.real(value_of(plastic, i));
     out.real(p.rho[i]);
     out.real(p.E[i] * value_of(volume, i));
@@ -258,15 +278,19 @@ void D3plotModel::put_particles(const World& world, Words& out) const {
   }
 }
 
-std::string D3plotModel::state(const World& world, const Clock& clock) {
+std::string D3plotModel::state(World& world, const Clock& clock) {
   find_sources(world);
+  if (!beside_vtk)  // else all are filled
+    for (auto* filler : world.passes.all<FieldFiller>())
+      if (dynamic_cast<ElementReporter*>(filler)) filler->fill_fields(world);
+  const std::vector<Index> particles = find_particles(world);
   Words out(extent_.bits);
   out.reserve(state_bytes(world) / out.width());
   out.real(clock.t);
   put_globals(world, out);
-  put_nodes(world, clock, out);
+  put_nodes(world, clock, particles, out);
   put_elements(world, out);
-  put_particles(world, out);
+  put_particles(world, particles, out);
   return out.take();
 }
 
