@@ -42,6 +42,7 @@ struct Call {
   std::vector<std::string> params, loads;
   int threads = 0;
   Real until = 0;
+  bool d3plot = false;
   bool no_final_dump = false, quiet = false, markdown = false, cannot_do = false, strict = false,
        json = false;
 };
@@ -74,6 +75,7 @@ bool parse_params(const std::vector<std::string>& words, std::map<std::string, s
 /// How the deck of a call is read; false where its words are wrong.
 bool read_options(const Call& call, ReadOptions& out) {
   if (!parse_params(call.params, out.parameters)) return false;
+  if (call.d3plot) out.more = "*COURANT_D3PLOT\n1\n";
   if (call.one_case)
     out.open = [subcases = call.one_case->subcases](const std::string& path) -> std::optional<std::string> {
       const auto text = text_of_file(path);
@@ -143,6 +145,7 @@ int call_run(const Call& call) {
   for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
   RunOptions options;
   options.dir = call.dir, options.until = call.until, options.warnings = warnings,
+  options.d3plot = call.d3plot;
   options.params = call.params, options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
   options.restart = restart ? &*restart : nullptr, options.relaxing = relaxing.get();
   if (call.one_case) options.load_case = call.one_case->id;
@@ -334,6 +337,7 @@ int command_line(int argc, char** argv) {
   run_->add_option("--restart", call.restart,
                    "go on from this restart file, or from the latest in this folder of results");
   run_->add_flag("--no-final-dump", call.no_final_dump, "write no restart file at the end or when stopped");
+  run_->add_flag("--d3plot", call.d3plot, "write states as d3plot, too, as *COURANT_D3PLOT does");
   run_->add_flag("--quiet", call.quiet, "print errors only");
 
   auto* check = app.add_subcommand("check", "read, validate and build a deck; run nothing");
@@ -372,6 +376,10 @@ int command_line(int argc, char** argv) {
   post->add_option("--threads", python.jobs, "processes; 0: all cores")->check(CLI::NonNegativeNumber);
   add_python_load(post);
 
+  auto* report = app.add_subcommand("report", "one HTML page on a run, or on two side by side");
+  report->add_option("DIR", places, "folder of the run, or of two")->expected(1, 2)->required();
+  report->add_option("-o,--output", python.dir, "FILE: the page; DIR/report.html if not given");
+
   auto* verify = app.add_subcommand("verify", "run a suite of cases: errors against run time, and stability");
   verify->add_option("SUITE", python.input, "suite.yaml")->required();
   verify->add_option("-o,--output", python.dir, "folder for runs and results; SUITE_verify if not given");
@@ -387,7 +395,7 @@ int command_line(int argc, char** argv) {
 
   auto* help = app.add_subcommand("help", "show help for a call");
   std::string topic;
-  help->add_option("CALL", topic, "run, check, keywords, generate, post or verify");
+  help->add_option("CALL", topic, "run, check, keywords, generate, post, report or verify");
 
   auto* manual = app.add_subcommand("manual", "write pages of the manual, and completion for bash");
   manual->group("")->add_option("DIR", call.dir, "folder for them")->required();  // called by the build
@@ -425,7 +433,7 @@ int command_line(int argc, char** argv) {
       return exit_input;
     }
   const bool of_scene = (*run_ || *check) && is_scene(call.deck);
-  if (*generate || *post || *verify || of_scene) {
+  if (*generate || *post || *report || *verify || of_scene) {
     print_error(fmt::format("error: {}\n", become_python_program(words)));
     return exit_other;
   }

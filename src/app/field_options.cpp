@@ -40,7 +40,8 @@ FieldWriterOptions field_options(const Model& model, bool hide_inactive) {
   const FieldRequests& wanted = model.output.fields;
   const bool small = wanted.small;
   FieldWriterOptions o;
-  for (const ModelPart& part : model.parts) o.part_ids.push_back(part.id);
+  for (const ModelPart& part : model.parts)
+    o.part_ids.push_back(part.id), o.part_titles.push_back(part.title);
   o.hide_inactive = hide_inactive;
   o.left_out = wanted.left_out;
   if (wanted.in_box) o.inside = [box = wanted.box](const Vec& x) { return box.contains(x); };

@@ -208,6 +208,7 @@ std::string call_to_go_on(const std::string& deck, const RunOptions& options, co
   std::string call =
       fmt::format("courant run {} -o {} --restart {}", in_shell(deck), in_shell(options.dir), in_shell(file));
   for (const std::string& param : options.params) call += " --param " + in_shell(param);
+  if (options.d3plot) call += " --d3plot";
   if (options.load_case > 0) call += fmt::format(" --case {}", options.load_case);
   if (options.until > 0) call += fmt::format(" --until {}", options.until);
   return call;

@@ -4,7 +4,6 @@
 
 #include "app/advice.hpp"
 #include "app/end_report.hpp"
-#include "app/field_options.hpp"
 #include "app/relaxation.hpp"
 #include "app/resources.hpp"
 #include "app/restart.hpp"
@@ -14,10 +13,10 @@
 #include "app/sense_switches.hpp"
 #include "app/simulation.hpp"
 #include "app/state_copies.hpp"
+#include "app/state_files.hpp"
 #include "app/verdict.hpp"
 #include "base/run_error.hpp"
 #include "output/ascii.hpp"
-#include "output/field_writer.hpp"
 #include "output/folder_lock.hpp"
 #include "output/messag.hpp"
 #include "output/restart_file.hpp"
@@ -49,7 +48,7 @@ class Run {
             },
             goes_on_),
         positions_(positions_before(options)),
-        fields_(options.dir, field_options(simulation.model(), simulation.sph().hide_inactive)),
+        fields_(options.dir, simulation),
         histories_(options.dir, history_requests(simulation), goes_on_ ? &positions_ : nullptr),
         field_schedule_(field_schedule(simulation, end_)),
         restart_schedule_(simulation.deck()),
@@ -312,9 +311,9 @@ class Run {
 
   void write_fields(World& world, const Clock& clock) {
     s_.guard().look(world, clock);  // states that are written are sound
-    s_.show_wall_forces();
+    if (fields_.with_vtk()) s_.show_wall_forces();
     writer_.submit(
-        [this, state = fields_.take(world, clock.t, state_++)]() mutable { fields_.write(std::move(state)); },
+        [this, state = fields_.take(world, clock, state_++)]() mutable { fields_.write(std::move(state)); },
         weight_of_state);
     last_field_time_ = clock.t;
     messag_.keep_status(clock.cycle, clock.t, clock.dt, fmt::format("write field state {}", state_ - 1));
@@ -457,7 +456,7 @@ class Run {
   bool goes_on_;  ///< with the files of the run before
   Messag messag_;
   HistoryPositions positions_;  ///< of the run before
-  FieldWriter fields_;
+  StateFiles fields_;
   Histories histories_;
   OutputSchedule field_schedule_;
   RestartSchedule restart_schedule_;

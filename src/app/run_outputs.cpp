@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <map>
+#include <string_view>
 
 #include "extension/additions.hpp"
 #include "model/requests/output_times.hpp"
+#include "model/requests/request_cards.hpp"
 
 namespace courant {
 namespace {
@@ -24,6 +28,23 @@ HistoryRequests::Added added_history(const AsciiHistory& added, const Simulation
   out.columns = added.columns;
   if (added.legend)
     for (const auto& [id, title] : added.legend(s.world())) out.legend.push_back({id, title});
+  return out;
+}
+
+}  // namespace
+
+namespace {
+
+/// BINARY of each card, by the name of its history.
+std::map<std::string, int> kinds_of_files(const Deck& deck) {
+  constexpr std::string_view front = "*DATABASE_";
+  std::map<std::string, int> out;
+  for (const DatabaseAsciiCard& card : deck.all<DatabaseAsciiCard>()) {
+    std::string name = deck.keyword(card).substr(front.size());
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    out[name] = card.binary;
+  }
   return out;
 }
 
@@ -56,6 +77,7 @@ HistoryRequests history_requests(const Simulation& s) {
     const RigidWallForce one = wall->report_wall();
     h.rigid_walls.push_back({one.id, one.title});
   }
+  h.binary = kinds_of_files(s.deck());
   for (const AsciiHistory& added : ascii_histories()) h.added.push_back(added_history(added, s));
   return h;
 }

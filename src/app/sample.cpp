@@ -139,6 +139,8 @@ void sample_parts(const World& world, const Model& model, Sample& s) {
     part.internal += p.E[i] * (*volume)[i];
   }
   sample_elements(world, s);
+  for (PartSample& part : s.parts)
+    if (part.mass > 0) part.rigid_velocity = part.momentum / part.mass;
   for (const RigidBodyReport& body : s.bodies) {
     const auto at = model.part_of_id.find(body.part);
     if (at == model.part_of_id.end()) continue;  // of nodes, whose mass counts with their elements

@@ -116,6 +116,7 @@ struct RunOptions {
   Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
   std::vector<std::string> warnings;                 ///< of the deck, for summary.yaml
   std::vector<std::string> params;                   ///< NAME=VALUE, for the command that goes on
+  bool d3plot = false;                               ///< --d3plot, for the same
   Id load_case = 0;                                  ///< of a deck with several, for the same; 0: none
   std::function<void(const std::string&)> print;     ///< lines of messag
   std::function<void(const std::string&)> progress;  ///< one status line, about once a second

@@ -126,6 +126,7 @@ class Deck {
 
 struct ReadOptions {
   std::map<std::string, std::string> parameters;  ///< --param NAME=VALUE: override *PARAMETER of the deck
+  std::string more{};                             ///< cards that a call adds behind those of the deck
   /// Text of a file, nothing if it cannot be read; empty: files of this machine. Tests read decks from
   /// memory.
   std::function<std::optional<std::string>(const std::string& path)> open{};

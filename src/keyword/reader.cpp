@@ -30,6 +30,7 @@ Deck DeckReader::read(const std::string& path) {
     return std::move(deck_);
   }
   read_file({.name = path}, std::move(source));
+  if (!options_.more.empty()) read_file({.name = "the call"}, make_source(options_.more));
   controls_.close(deck_, diagnostics_);
   refusals_.close(diagnostics_);
   if (cards_.full())

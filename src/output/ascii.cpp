@@ -48,9 +48,15 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
       if (!resume) remove_ours(dir / name);
       return;
     }
+    const auto how = requests.binary.find(name);
+    const int binary = how == requests.binary.end() || !has_binout(name) ? 1 : how->second;
+    files_.push_back({schedule, name, {}, binary == 2 || binary == 3, std::move(text)});
+    if (binary == 2) {
+      if (!resume) remove_ours(dir / name);
+      return;
+    }
     const bool goes_on = resume && resume->bytes.contains(name);
-    files_.push_back({schedule, name, TextFile(dir / name, goes_on), std::move(text)});
-    TextFile& file = files_.back().file;
+    TextFile& file = files_.back().file.emplace(dir / name, goes_on);
     if (goes_on) {
       const auto bytes = static_cast<std::uintmax_t>(resume->bytes.at(name));
       if (file.size() < bytes) lost_.push_back(fmt::format("{} has lost its end before the restart", name));
@@ -74,6 +80,13 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
          (requests.added[k].legend.empty() ? "" : ascii_legend(requests.added[k].legend)) +
              requests.added[k].columns,
          [k](const Sample& s) { return k < s.added.size() ? s.added[k] : std::string(); });
+  if (std::any_of(files_.begin(), files_.end(), [](const Ascii& file) { return file.in_binout; })) {
+    const auto states = resume ? resume->binout_states : std::map<std::string, std::int64_t>();
+    const bool goes_on = resume && resume->binout_bytes > 0;
+    binout_.emplace(
+        result_path(dir, result_names::binout), requests.title, states,
+        goes_on ? std::optional(static_cast<std::uintmax_t>(resume->binout_bytes)) : std::nullopt);
+  }
   choose_h5_times(requests.h5);
   if (!h5_schedules_.empty()) h5_.emplace(result_path(dir, result_names::history));
   if (!resume) return;
@@ -104,7 +117,10 @@ void Histories::keep(Archive& archive, Real t) {
 
 HistoryPositions Histories::positions() const {
   HistoryPositions out;
-  for (const Ascii& file : files_) out.bytes[file.name] = static_cast<std::int64_t>(file.file.size());
+  for (const Ascii& file : files_)
+    if (file.file) out.bytes[file.name] = static_cast<std::int64_t>(file.file->size());
+  if (binout_)
+    out.binout_states = binout_->states(), out.binout_bytes = static_cast<std::int64_t>(binout_->size());
   if (h5_) out.rows = static_cast<std::int64_t>(h5_->rows());
   if (first_potential_) out.first_potential = {*first_potential_};
   return out;
@@ -148,9 +164,13 @@ Histories::Due Histories::take(Real t, Real dt, bool always) {
 void Histories::write(const Sample& sample, const Due& due) {
   if (!first_potential_) first_potential_ = sample.energy.potential;
   for (std::size_t i = 0; i < files_.size(); ++i)
-    if (due[i])
-      files_[i].file.write(files_[i].text ? files_[i].text(sample) : glstat_text(sample, *first_potential_));
+    if (due[i]) write(files_[i], sample);
   if (h5_ && due.back()) h5_->record(sample);
+}
+
+void Histories::write(Ascii& to, const Sample& sample) {
+  if (to.file) to.file->write(to.text ? to.text(sample) : glstat_text(sample, *first_potential_));
+  if (to.in_binout) binout_->write(to.name, sample, *first_potential_);
 }
 
 void Histories::finish() {
@@ -166,6 +186,7 @@ std::int64_t Histories::bytes() const {
   };
   for (const Ascii& file : files_) add(file.name);
   if (h5_) add("history.h5");
+  if (binout_) add(result_names::binout);
   return sum;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "output/binout.hpp"
 #include "output/file.hpp"
 #include "output/history.hpp"
 #include "output/output_schedule.hpp"
@@ -71,19 +72,25 @@ struct HistoryRequests {
     std::string columns{};  ///< behind it
   };
   std::vector<Added> added{};
+  /// Of a history by its name, as BINARY has it: 2 in binout, 3 in both; others are text.
+  std::map<std::string, int> binary{};
   std::string title{};
   std::vector<Legend> parts{}, contacts{}, nodes{}, rigid_walls{};
 };
 
 /// How far the files of a run have come: what a restart cuts them back to.
 struct HistoryPositions {
-  std::map<std::string, std::int64_t> bytes;  ///< of each text file
-  std::int64_t rows = 0;                      ///< of history.h5
-  std::vector<Real> first_potential;          ///< none before the first sample [ML2/T2]
+  std::map<std::string, std::int64_t> bytes;            ///< of each text file
+  std::int64_t rows = 0;                                ///< of history.h5
+  std::vector<Real> first_potential;                    ///< none before the first sample [ML2/T2]
+  std::map<std::string, std::int64_t> binout_states{};  ///< of each history in binout
+  std::int64_t binout_bytes = 0;
   void keep(Archive& archive) {
     archive("bytes", bytes);
     archive("rows", rows);
     archive("first_potential", first_potential);
+    archive("binout_states", binout_states);
+    archive("binout_bytes", binout_bytes);
   }
 };
 
@@ -125,14 +132,18 @@ class Histories {
   struct Ascii {
     OutputSchedule schedule;
     std::string name;
-    TextFile file;
+    std::optional<TextFile> file;  // none: in binout alone
+    bool in_binout = false;
     std::function<std::string(const Sample&)> text;  // empty: glstat, which needs the first potential
     Real last = -1;                                  // time of the last state
   };
+  void write(Ascii& to, const Sample& sample);
+
   std::filesystem::path dir_;
   std::vector<Ascii> files_;
   std::vector<OutputSchedule> h5_schedules_;  // any of them
   std::optional<History> h5_;
+  std::optional<Binout> binout_;
   Real h5_last_ = -1;
   std::optional<Real> first_potential_;
   std::vector<std::string> lost_;

@@ -51,6 +51,18 @@ void keep_sections(const std::string& name, std::vector<VtkSection>& sections, A
   }
 }
 
+/// A number each, whose name has the title: meshio stops at field data of text.
+std::vector<VtkArray> titles_of(const FieldWriterOptions& options) {
+  std::vector<VtkArray> out;
+  for (std::size_t k = 0; k < options.part_ids.size() && k < options.part_titles.size(); ++k) {
+    if (options.part_titles[k].empty()) continue;
+    const std::string name = fmt::format("part {}: {}", options.part_ids[k], options.part_titles[k]);
+    out.push_back(
+        make_array<Id, 1>(in_xml(name), "", 1, [&](std::size_t, Id* to) { *to = options.part_ids[k]; }));
+  }
+  return out;
+}
+
 /// Groups of shells are shown with the faces.
 bool has_solids(const World& world) {
   return std::any_of(world.groups.begin(), world.groups.end(),
@@ -66,6 +78,7 @@ FieldWriter::FieldWriter(std::filesystem::path dir, FieldWriterOptions options)
       shell_encoder_(options_.compression),
       solid_encoder_(options_.compression) {
   make_folder(dir_ / "fields");
+  titles_ = titles_of(options_);
 }
 
 FieldState FieldWriter::take(const World& world, Real t, int number) const {
@@ -75,7 +88,7 @@ FieldState FieldWriter::take(const World& world, Real t, int number) const {
   if (world.segments.size() > 0) state.shells = shell_data(world, options_);
   if (has_solids(world)) state.solids = solid_data(world, options_);
   for (auto* data : {&state.particles, &state.shells, &state.solids})
-    if (*data) (*data)->t = t;
+    if (*data) (*data)->t = t, (*data)->facts = titles_;
   return state;
 }
 

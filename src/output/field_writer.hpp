@@ -16,8 +16,9 @@
 namespace courant {
 
 struct FieldWriterOptions {
-  std::vector<Id> part_ids{};     ///< deck number of each part index, for the array `part`
-  bool hide_inactive = false;     ///< ISHOW = 1: particles that are not active are left out
+  std::vector<Id> part_ids{};              ///< deck number of each part index, for the array `part`
+  std::vector<std::string> part_titles{};  ///< of each part index; each is field data `part ID: title`
+  bool hide_inactive = false;              ///< ISHOW = 1: particles that are not active are left out
   std::vector<Index> left_out{};  ///< parts (by index, sorted) without particles and shells in the files
   std::function<bool(const Vec& x)> inside{};  ///< only particles there; empty: everywhere
   /// Arrays of particles: names of fields, `part`, `active`, `acceleration`; empty: what a run usually
@@ -87,7 +88,8 @@ class FieldWriter {
 
   std::filesystem::path dir_;
   FieldWriterOptions options_;
-  std::string entries_;  // the <DataSet> lines of fields.pvd so far
+  std::vector<VtkArray> titles_;  // of parts
+  std::string entries_;           // the <DataSet> lines of fields.pvd so far
   VtkEncoder particle_encoder_, shell_encoder_, solid_encoder_;
   std::vector<VtkSection> shells_before_;
   std::string shell_file_;  // where these stand

@@ -25,6 +25,12 @@ bool is_field_name(const std::string& name) {
   return false;
 }
 
+/// d3plot, d3plot01, ...
+bool is_d3plot(const std::string& name) {
+  const std::string front = result_names::d3plot;
+  return name == front || (name.starts_with(front) && is_number(name.substr(front.size())));
+}
+
 }  // namespace
 
 std::string without_tmp(const std::string& name) {
@@ -39,7 +45,8 @@ bool is_listed_result(const std::filesystem::path& name_in_folder) {
   if (folder == "restart") return name.ends_with(".h5");
   const auto is_name = [&](const char* one) { return name == one; };
   return folder.empty() &&
-         (std::any_of(std::begin(result_names::whole), std::end(result_names::whole), is_name) ||
+         (is_d3plot(name) ||
+          std::any_of(std::begin(result_names::whole), std::end(result_names::whole), is_name) ||
           std::any_of(std::begin(result_names::ascii), std::end(result_names::ascii), is_name));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "output/field_data.hpp"
+#include "output/stress_invariants.hpp"
 #include "output/vtk_arrays.hpp"
 #include "state/shared_fields.hpp"
 
@@ -100,6 +101,7 @@ VtkDataSet shell_data(const World& world, const FieldWriterOptions& options) {
   add_fields(world.nodes.fields, nodes, options, of_nodes);
   add_fields(world.segments.fields, segments, options, of_segments);
   add_element_fields(world, segments, options, of_segments);
+  add_stress_invariants(of_segments);
   of_segments.push_back(make_array<Id, 1>("part", "", segments.size(), [&](std::size_t i, Id* to) {
     *to = options.part_ids.at(static_cast<std::size_t>(world.segments.part[segments[i]]));
   }));

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "output/field_data.hpp"
+#include "output/stress_invariants.hpp"
 #include "output/vtk_arrays.hpp"
 #include "output/vtk_cell.hpp"
 #include "state/shared_fields.hpp"
@@ -114,6 +115,7 @@ VtkDataSet solid_data(const World& world, const FieldWriterOptions& options) {
                  fmt::format("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", nodes.size(), part.size()),
                  0,
                  {}};
+  add_stress_invariants(of_elements);
   out.sections.push_back({"PointData", std::move(of_nodes)});
   out.sections.push_back({"CellData", std::move(of_elements)});
   out.sections.push_back({"Points", {node_places(world, nodes, options)}});

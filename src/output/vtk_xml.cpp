@@ -57,6 +57,21 @@ void store(std::string_view block, std::string& out) {
   for (const int shift : {24, 16, 8, 0}) out += static_cast<char>(sum >> shift & 0xff);
 }
 
+/// RFC 4648, with padding.
+void add_base64(std::string_view bytes, std::string& out) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto byte = [&](std::size_t i) {
+    return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U;
+  };
+  std::size_t at = out.size();
+  out.resize(at + (bytes.size() + 2) / 3 * 4, '=');
+  for (std::size_t i = 0; i < bytes.size(); i += 3, at += 4) {
+    const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, bytes.size() - i + 1); ++k)
+      out[at + k] = digits[three >> (18 - 6 * k) & 63];
+  }
+}
+
 /// A block that was stored as it is, by its third byte.
 bool is_stored(std::string_view packed) {
   return packed.size() > 2 && packed[2] == 1;
@@ -71,6 +86,23 @@ std::int64_t mark_of(std::string_view block, bool stored) {
 
 }  // namespace
 
+std::string in_xml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c >= ' ' && c <= '~' ? c : ' ';
+  }
+  return out;
+}
+
 VtkEncoder::VtkEncoder(Compression compression)
     : compression_(compression), compressor_(BlockCompressor::make(compression)) {}
 VtkEncoder::~VtkEncoder() = default;
@@ -79,8 +111,9 @@ VtkEncoder::~VtkEncoder() = default;
 /// of each block; then the blocks. Without compression: the number of bytes, then these.
 void VtkEncoder::add_data(Memory& memory, std::string bytes, int stride) {
   if (!compressor_) {
-    add_uint32(data_, bytes.size());
-    data_ += bytes;
+    std::string whole;
+    add_uint32(whole, bytes.size());
+    put(whole + bytes);
     return;
   }
   const std::size_t size = block_bytes(), blocks = (bytes.size() + size - 1) / size;
@@ -104,11 +137,20 @@ void VtkEncoder::add_data(Memory& memory, std::string bytes, int stride) {
   else if (2 * reached > attempted && !compression_.always)
     memory.states_to_store = states_between_attempts;
 
-  for (const std::size_t number : {blocks, size, bytes.size() % size}) add_uint32(data_, number);
-  for (const std::string& block : memory.blocks) add_uint32(data_, block.size());
-  for (const std::string& block : memory.blocks) data_ += block;
+  std::string sizes, packed;
+  for (const std::size_t number : {blocks, size, bytes.size() % size}) add_uint32(sizes, number);
+  for (const std::string& block : memory.blocks) add_uint32(sizes, block.size()), packed += block;
+  put(sizes);
+  put(packed);
   memory.bytes = std::move(bytes);
   memory.before_restart.clear();
+}
+
+void VtkEncoder::put(std::string_view bytes) {
+  if (as_text_)
+    add_base64(bytes, data_);
+  else
+    data_ += bytes;
 }
 
 void VtkEncoder::add_array(const char* section, VtkArray array, const char* attributes) {
@@ -133,15 +175,19 @@ VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
   constexpr bool little = std::endian::native == std::endian::little;
   data_.clear();
   // The encoding stands in a document type, not at AppendedData: only so short a tag is read by ParaView 5.11
-  // with an expat that holds back what it parses (CVE-2023-52425; Debian 12 since 2.5.0-1+deb12u2).
+  // with an expat that holds back what it parses (CVE-2023-52425; Debian 12 since 2.5.0-1+deb12u2). meshio
+  // reads no raw data behind such a tag, and no .vtp at all: grids are text.
+  as_text_ = std::string_view(data.type) == "UnstructuredGrid";
   header_ = fmt::format(
       "<?xml version=\"1.0\"?>\n<!DOCTYPE VTKFile [<!ATTLIST AppendedData encoding CDATA "
-      "\"raw\">]>\n<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"{}\" "
+      "\"{}\">]>\n<VTKFile type=\"{}\" version=\"0.1\" byte_order=\"{}\" "
       "header_type=\"UInt32\"{}>\n<{}>\n<FieldData>\n",
-      data.type, little ? "LittleEndian" : "BigEndian", attribute_of(compression_.method), data.type);
+      as_text_ ? "base64" : "raw", data.type, little ? "LittleEndian" : "BigEndian",
+      attribute_of(compression_.method), data.type);
   VtkArray time{"TimeValue", "Float64", 1, "", std::string(sizeof data.t, '\0')};
   std::memcpy(time.bytes.data(), &data.t, sizeof data.t);
   add_array("FieldData", std::move(time), " NumberOfTuples=\"1\"");
+  for (VtkArray& one : data.facts) add_array("FieldData", std::move(one), " NumberOfTuples=\"1\"");
   header_ += fmt::format("</FieldData>\n<Piece {}>\n", data.sizes);
   for (VtkSection& section : data.sections) {
     header_ += fmt::format("<{}>\n", section.name);

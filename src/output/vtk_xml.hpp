@@ -1,5 +1,5 @@
 #pragma once
-// VTK's XML files (.vtp, .vtu) with appended raw data, compressed block by block.
+// VTK's XML files (.vtp, .vtu) with appended data, compressed block by block.
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,6 +12,10 @@
 #include "state/saved_state.hpp"
 
 namespace courant {
+
+/// A text as the value of an attribute: with entities, and blanks for control characters and others than
+/// ASCII.
+std::string in_xml(const std::string& text);
 
 /// One array of a file.
 struct VtkArray {
@@ -36,6 +40,7 @@ struct VtkDataSet {
   std::string sizes;              ///< attributes of the piece: NumberOfPoints="3" ...
   Real t = 0;                     ///< goes into the field data `TimeValue` [T]
   std::vector<VtkSection> sections;
+  std::vector<VtkArray> facts{};  ///< more field data, of one tuple each
 };
 
 /// Turns data sets of one kind, one per state, into the bytes of files. VTK's own writer spends most of its
@@ -66,11 +71,13 @@ class VtkEncoder {
   bool pack_as_before(Memory& memory, std::size_t b, std::string_view block, int stride);
   void add_array(const char* section, VtkArray array, const char* attributes);
   void add_data(Memory& memory, std::string bytes, int stride);
+  void put(std::string_view bytes);  ///< into the file's data: as they are, or as base64
   std::size_t block_bytes() const { return compression_.method == Compression::Method::xz ? 1 << 18 : 4096; }
 
   std::map<std::string, Memory> memory_;  // by section and name
   Compression compression_;
   std::unique_ptr<BlockCompressor> compressor_;
+  bool as_text_ = false;
   std::string header_, data_;
 };
 

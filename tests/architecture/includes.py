@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "elements": ["loads", "search", "state", "keyword", "model", "laws", "extension", "shell", "surfaces"],
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces", "extension"],
     "output": ["state"],
+    "d3plot": ["elements", "rigid", "extension", "output"],
     "time": ["state", "search", "output"],
     "vtk": ["state", "output"],
 }

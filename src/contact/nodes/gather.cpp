@@ -177,7 +177,7 @@ InterfaceForce NodeContact::report() const {
   out.title = law_.title;
   Real springs = 0;
   for (const Touch& touch : touches_) {
-    out.on_surfa += touch.pass == 0 ? touch.force : Vec(-touch.force);
+    if (!law_.single) out.on_surfa += touch.pass == 0 ? touch.force : Vec(-touch.force);
     out.energy_stored += touch.stored;
     if (friction_on_ && touch.k > 0) springs += 0.5 * touch.friction.squaredNorm() / touch.k;
   }

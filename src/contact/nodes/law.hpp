@@ -23,6 +23,7 @@ struct NodeContactLaw {
   Real tssfac = 0.9;              ///< what elements leave of their own step
   int enmass = 0;                 ///< whose nodes go on to touch once their elements are deleted
   bool with_edges = false;        ///< edges touch, too: each asks for half of what elements leave of a step
+  bool single = false;            ///< one surface with itself: the forces on it are in balance
 };
 
 }  // namespace courant

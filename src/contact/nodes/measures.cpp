@@ -70,6 +70,7 @@ NodeContactLaw ContactMeasures::law() const {
   law.tssfac = tssfac_;
   law.enmass = control_.enmass;
   law.with_edges = asks_for_edges(c);
+  law.single = kind_of(c).single;
   return law;
 }
 

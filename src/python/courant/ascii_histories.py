@@ -1,7 +1,6 @@
 """Reads LS-DYNA's ASCII histories, of Courant and of LS-DYNA itself.
 
-Read are glstat, matsum, rcforc, sleout, nodout, rbdout, bndout, spcforc, rwforc and sphout. The kind is told by the content,
-not by the name. Taken as they come: titles, legends, columns that newer versions append, slave and master for SURFA and
+Read are those of ASCII_NAMES: every one that `courant run` writes. The kind is told by the content, not by the name. Taken as they come: titles, legends, columns that newer versions append, slave and master for SURFA and
 SURFB, exponents without E (0.1-100), stars for numbers that did not fit. Where a run was restarted and its times go back,
 the later states count.
 """
@@ -14,13 +13,17 @@ from pathlib import Path
 
 import numpy as np
 
+from . import ascii_elements  # noqa: F401  registers kinds
 from .ascii_kinds import ASCII_KINDS, AsciiFault, AsciiKey, AsciiKind, AsciiStates
 from .diagnostics import Diagnostics, Location
 from .words import nearest_word
 
-__all__ = ["AsciiFile", "AsciiKey"]
+__all__ = ["ASCII_NAMES", "AsciiFile", "AsciiKey"]
 
-_KNOWN = "glstat, matsum, rcforc, sleout, nodout, rbdout, bndout, spcforc, rwforc and sphout are read"
+ASCII_NAMES = tuple(ASCII_KINDS)
+"""Names of the files, the table that all of the package shares."""
+
+_KNOWN = f"{', '.join(ASCII_NAMES[:-1])} and {ASCII_NAMES[-1]} are read"
 _ENERGY, _FORCE = "ML2/T2", "ML/T2"
 # of a kind ("": any), the end of a name and its dimension; the first that fits counts
 _DIMENSIONS = [
@@ -56,11 +59,26 @@ _DIMENSIONS = [
     ("sphout", "smooth", "L"),
     *(("sphout", name, "-") for name in ("neigh", "act")),
     *(("sphout", name, "M/LT2") for name in ("yield", "effsg")),
+    *(("elout", name, _FORCE) for name in ("axial", "shear-s", "shear-t")),
+    *(("elout", name, _ENERGY) for name in ("moment-s", "moment-t", "torsion")),
+    *(("elout", name, "-") for name in ("strain", "eps")),
+    *(("elout", name, "M/LT2") for name in ("effsg", "sigma 11", "sigma 12", "sigma 31")),
+    ("secforc", "area", "L2"),
+    ("secforc", "centroid", "L"),
+    ("deforc", "change in length", "L"),
+    ("deforc", "relative rotation", "-"),
+    *((kind, "force", _FORCE) for kind in ("secforc", "deforc", "jntforc")),
+    *((kind, "moment", _ENERGY) for kind in ("secforc", "deforc", "jntforc", "swforc")),
+    *(("swforc", name, _FORCE) for name in ("axial", "shear")),
+    ("swforc", "failure", "T"),
+    ("swforc", "length", "L"),
+    ("swforc", "torsion", _ENERGY),
 ]
 # of what a name holds: dimension, and that of rotations
 _HELD = {
     "spcforc": [("moment", _ENERGY, _ENERGY), ("", _FORCE, _FORCE)],
     "sphout": [("sig-", "M/LT2", "M/LT2"), ("eps-", "-", "-")],
+    "elout": [("sig-", "M/LT2", "M/LT2")],
     "rbdout": [
         ("coordinates", "L", "L"),
         ("displacements", "L", "-"),

@@ -1,4 +1,4 @@
-"""Field files of a run: VTK's XML with raw appended data (.vtp, .vtu), as `courant run` writes it.
+"""Field files of a run: VTK's XML with appended data, raw (.vtp) or base64 (.vtu), as `courant run` writes it.
 
 Nothing in a file is trusted: sizes are held against the length of the file before memory is asked for, and each block of data
 against its own size. No vtk module is needed.
@@ -6,6 +6,7 @@ against its own size. No vtk module is needed.
 
 from __future__ import annotations
 
+import binascii
 import os
 import re
 import struct
@@ -22,7 +23,8 @@ from .diagnostics import Diagnostics
 _LONGEST_HEAD = _LARGEST_BLOCK = 1 << 20  # bytes
 _MOST_POINTS = 2**31 - 1
 _MOST_COMPONENTS = 64
-_DATA_MARK = re.compile(rb'<AppendedData(?: encoding="raw")?>\n_')  # the encoding may stand in a document type
+_DATA_MARK = re.compile(rb'<AppendedData(?: encoding="(raw|base64)")?>\n_')  # the encoding may be in a document type
+_ENCODING = re.compile(rb'<!ATTLIST AppendedData encoding CDATA "(raw|base64)">')
 _LAST_LINE = b"</VTKFile>\n"  # a file that was cut off has none
 _TYPES = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UInt8": "<u1", "Int8": "<i1"}
 _PACKINGS = {"": "none", "vtkZLibDataCompressor": "zlib", "vtkLZMADataCompressor": "xz"}
@@ -64,6 +66,8 @@ class FieldFile:
         if not whole or mark is None:
             raise FieldFault("it is cut off, or no field file")
         self._data = mark.end()
+        encoding = _ENCODING.search(head, 0, mark.start())
+        self._is_text = (mark[1] or (encoding[1] if encoding else b"raw")) == b"base64"
         self._bytes = head if len(head) == self._size else None  # small ones are in memory now
         self._read_head(head[: mark.start()])
 
@@ -163,24 +167,49 @@ class FieldFile:
             raise FieldFault("its data end too early")
         return data
 
+    def _decoded(self, at: int, length: int) -> tuple[bytes, int]:
+        """So many bytes from where they, or their base64, begin, and the offset behind."""
+        if not self._is_text:
+            return self._take(at, length), at + length
+        count = (length + 2) // 3 * 4
+        try:
+            data = binascii.a2b_base64(self._take(at, count), strict_mode=True) if count else b""
+        except (binascii.Error, ValueError) as fault:
+            raise FieldFault("its data are no base64") from fault
+        if len(data) < length:
+            raise FieldFault("its data end too early")
+        return data[:length], at + count
+
     def _unpacked(self, at: int, most: int) -> bytes:
         """The data of an array, at most so many bytes. Packed: number of blocks, bytes of a block, of the last one if it is
         shorter, packed bytes of each; the blocks."""
         if self._packing == "none":
-            (length,) = struct.unpack("<I", self._take(at, 4))
+            length = self._length(at)
             if length > most:
                 raise FieldFault("an array is too long")
-            return self._take(at + 4, length)
-        blocks, block, last = struct.unpack("<3I", self._take(at, 12))
+            return self._decoded(at, 4 + length)[0][4:]
+        blocks, block, last = struct.unpack("<3I", self._decoded(at, 12)[0])
         if blocks > self._size // 4 or block > _LARGEST_BLOCK or last > block or blocks * block > most + block:
             raise FieldFault("the blocks of an array are too large")
-        lengths = struct.unpack(f"<{blocks}I", self._take(at + 12, 4 * blocks))
-        at += 12 + 4 * blocks
-        out = []
+        sizes, at = self._decoded(at, 12 + 4 * blocks)
+        lengths = struct.unpack(f"<{blocks}I", sizes[12:])
+        if sum(lengths) > self._size:
+            raise FieldFault("its data end too early")
+        packed, _ = self._decoded(at, sum(lengths))
+        out, begin = [], 0
         for number, length in enumerate(lengths, 1):
-            out.append(self._block(self._take(at, length), last if number == blocks and last > 0 else block))
-            at += length
+            out.append(self._block(packed[begin : begin + length], last if number == blocks and last > 0 else block))
+            begin += length
         return out[0] if len(out) == 1 else b"".join(out)
+
+    def _length(self, at: int) -> int:
+        """The number of bytes in front of an array that is not packed; as base64 its last digits may belong to the array, too."""
+        if not self._is_text:
+            return int.from_bytes(self._take(at, 4), "little")
+        try:
+            return int.from_bytes(binascii.a2b_base64(self._take(at, 6) + b"==")[:4], "little")
+        except binascii.Error as fault:
+            raise FieldFault("its data are no base64") from fault
 
     def _block(self, packed: bytes, size: int) -> bytes:
         import lzma

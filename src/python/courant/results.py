@@ -15,7 +15,7 @@ state.pyvista().plot(scalars="pressure")
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -24,8 +24,10 @@ from typing import Any, overload
 import numpy as np
 import yaml
 
-from .ascii_histories import AsciiFile
+from .ascii_histories import ASCII_NAMES, AsciiFile
 from .ascii_kinds import column_name
+from .binout import BinoutFault, BinoutFile, binout_files
+from .d3plot import D3plotFault, D3plotFile
 from .diagnostics import CourantError, Diagnostics
 from .fields import FieldFault, FieldFile, StateFiles, read_states
 from .files import write_figure
@@ -33,8 +35,6 @@ from .histories import HistoryFile
 from .optional import module
 from .tables import Table, table_of
 from .units import Dimension, Units
-
-ASCII_NAMES = ("glstat", "matsum", "rcforc", "sleout", "nodout", "rbdout", "bndout", "spcforc", "rwforc", "sphout")
 
 
 def open(folder: str | PathLike[str], units: Units = Units()) -> Results:  # noqa: A001, B008  as gzip.open; frozen
@@ -314,6 +314,29 @@ class Results:
         files = read_states(self.folder, diagnostics, with_particles=False)
         _raised(diagnostics)
         return States(files, self)
+
+    @cached_property
+    def d3plot(self) -> D3plotFile:
+        """The d3plot family of the folder, of Courant or LS-DYNA: `len(d3plot)`, `d3plot.times`, `d3plot.state(-1).nodes["position"]`."""
+        return self._read(self.folder / "d3plot", D3plotFile, "no d3plot here", "`courant run --d3plot` writes one")
+
+    @cached_property
+    def binout(self) -> BinoutFile:
+        """The binout of the folder, of Courant or LS-DYNA, by path: `binout["nodout/x_displacement"]`."""
+        files = binout_files(self.folder) or [self.folder / "binout0000"]
+        return self._read(files[0], lambda _: BinoutFile(*files), "no binout here", "BINARY 2 or 3 of *DATABASE cards asks for one")
+
+    def _read(self, file: Path, read: Callable[[Path], Any], missing: str, hint: str) -> Any:
+        diagnostics = Diagnostics()
+        try:
+            if file.is_file():
+                return read(file)
+            diagnostics.error(file, missing, hint)
+        except (D3plotFault, BinoutFault) as fault:
+            diagnostics.error(file, f"it cannot be read: {fault}")
+        except (OSError, ValueError, OverflowError, MemoryError) as fault:
+            diagnostics.error(file, f"it cannot be read: {' '.join(str(fault).split())}")
+        raise CourantError(diagnostics)
 
     @cached_property
     def summary(self) -> dict[str, Any]:
