@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <map>
 
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

@@ -12,15 +12,15 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include "app/check.hpp"
+#include "app/check/check.hpp"
 #include "app/load_extension.hpp"
 #include "app/manual.hpp"
 #include "app/python_program.hpp"
-#include "app/restart.hpp"
-#include "app/simulation.hpp"
+#include "app/run/restart.hpp"
+#include "app/run/simulation.hpp"
 #include "app/terminal.hpp"
-#include "keyword/cases.hpp"
-#include "keyword/keyword_state.hpp"
+#include "keyword/help/keyword_state.hpp"
+#include "keyword/read/cases.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"

@@ -9,7 +9,7 @@
 #include <new>
 
 #include "app/cli.hpp"
-#include "app/resources.hpp"
+#include "app/run/resources.hpp"
 #include "parallel/start_over.hpp"
 
 namespace {

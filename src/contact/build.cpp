@@ -14,10 +14,10 @@
 namespace courant {
 namespace {
 
-class Builder {
+class ParticleContactBuilder {
  public:
-  Builder(const Deck& deck, const Model& model, const ContactOptions& options, World& world,
-          Diagnostics& diagnostics)
+  ParticleContactBuilder(const Deck& deck, const Model& model, const ContactOptions& options, World& world,
+                         Diagnostics& diagnostics)
       : deck_(deck), model_(model), options_(options), world_(world), diagnostics_(diagnostics) {}
 
   /// Particles of SURFA, which may have nodes of elements, too; reports a missing side.
@@ -183,7 +183,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
                                                      const ContactOptions& options, World& world,
                                                      Diagnostics& diagnostics) {
   std::vector<std::shared_ptr<Contact>> out;
-  Builder builder(deck, model, options, world, diagnostics);
+  ParticleContactBuilder builder(deck, model, options, world, diagnostics);
   int number = 0;
   const std::vector<ContactCard>& asked = deck.all<ContactCard>();
   const std::vector<AskedInterfaceLaw> laws = interface_laws(deck, diagnostics);

@@ -16,7 +16,7 @@
 #include "contact/push_out.hpp"
 #include "contact/wall.hpp"
 #include "keyword/deck.hpp"
-#include "loads/sensors.hpp"
+#include "loads/sensors/sensors.hpp"
 #include "model/model.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"

@@ -3,7 +3,7 @@
 #include <unordered_map>
 
 #include "d3plot/d3plot_model.hpp"
-#include "rigid/rigid.hpp"
+#include "rigid/bodies/rigid.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 

@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "elements/beam/beams.hpp"
-#include "elements/beam/cables.hpp"
-#include "elements/beam/discrete_beams.hpp"
 #include "elements/build_nodes.hpp"
 #include "elements/discrete/discrete.hpp"
+#include "elements/discrete_beam/cables.hpp"
+#include "elements/discrete_beam/discrete_beams.hpp"
 #include "elements/element_laws.hpp"
 #include "elements/erosion.hpp"
 #include "elements/histories/secforc.hpp"
@@ -18,6 +18,7 @@
 #include "elements/nodal_rotations.hpp"
 #include "elements/node_inertias.hpp"
 #include "elements/shell/shells.hpp"
+#include "elements/shell_faces/shell_faces.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "extension/builders.hpp"
@@ -27,7 +28,6 @@
 #include "loads/non_reflecting.hpp"
 #include "loads/point_motion.hpp"
 #include "model/mesh/plane_strain.hpp"
-#include "shell/shell.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {

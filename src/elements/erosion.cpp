@@ -31,7 +31,7 @@ Real effective(const Matrix& M, Real factor) {
 }
 
 /// Which criteria hold, in words.
-class Held {
+class CriteriaMet {
  public:
   void above(Real value, Real limit, const char* what) {
     if (limit < infinite && value >= limit) tell(value, what);
@@ -139,7 +139,7 @@ void Erosion::weaken(Index e) const {
 }
 
 std::string Erosion::failure_of(const FailingPoints& p, Index i) const {
-  Held held;
+  CriteriaMet held;
   const Matrix s = tensor_at(p.stress, i);
   const Real pressure = -s.trace() / 3;
   held.above(pressure, rules_.most_pressure, "pressure");

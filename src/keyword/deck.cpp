@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "keyword/number.hpp"
-#include "keyword/parameters.hpp"
+#include "keyword/read/number.hpp"
+#include "keyword/read/parameters.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 

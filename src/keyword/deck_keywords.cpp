@@ -1,6 +1,6 @@
 // Keywords that shape the deck itself. read_deck handles them by name; the tables are for the documentation.
 #include "keyword/deck_cards.hpp"
-#include "keyword/parameters.hpp"
+#include "keyword/read/parameters.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "keyword/families.hpp"
+#include "keyword/help/families.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {

@@ -10,8 +10,8 @@
 #include "base/nearest_word.hpp"
 #include "keyword/card.hpp"
 #include "keyword/deck.hpp"
+#include "keyword/help/law_names.hpp"
 #include "keyword/keyword_spec.hpp"
-#include "keyword/law_names.hpp"
 
 namespace courant {
 

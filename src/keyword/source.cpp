@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "keyword/number.hpp"
+#include "keyword/read/number.hpp"
 
 namespace courant {
 

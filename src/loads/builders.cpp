@@ -5,8 +5,8 @@
 #include "loads/interpolation.hpp"
 #include "loads/loads.hpp"
 #include "loads/node_sets.hpp"
-#include "loads/sensor_force.hpp"
-#include "loads/sensors.hpp"
+#include "loads/sensors/sensor_force.hpp"
+#include "loads/sensors/sensors.hpp"
 #include "model/conditions/relaxation.hpp"
 
 namespace courant {

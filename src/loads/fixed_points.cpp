@@ -29,7 +29,7 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
       for (int k = 0; k < 3; ++k)  // outside the box, too, where the pass below does not come
         if (fixed_[i] & (1 << k)) points.v->data(k)[i] = 0;
     }
-    if (measured || model.output.spcforc.asked())
+    if (measured || model.output.history("spcforc").asked())
       support_ =
           &(points.turns ? shared_fields::support_moment : shared_fields::support_force).add(*points.set);
   }

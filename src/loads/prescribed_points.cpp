@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "loads/loads.hpp"
-#include "loads/sensors.hpp"
+#include "loads/sensors/sensors.hpp"
 
 #include "parallel/parallel.hpp"
 #include "state/reports.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "keyword/registry.hpp"
-#include "loads/blast_cards.hpp"
+#include "loads/blast/blast_cards.hpp"
 #include "loads/load_cards.hpp"
 #include "loads/loads.hpp"
 #include "loads/middle_velocity.hpp"

@@ -213,7 +213,16 @@ struct FieldRequests {
 struct OutputRequests {
   OutputTimes d3plot;
   int d3plot_count = 0;  ///< NPLTC: interval is ENDTIM / NPLTC if given
-  OutputTimes glstat, matsum, rcforc, sleout, sphout, nodout, rbdout, bndout, spcforc, rwforc;
+  struct History {
+    OutputTimes times{};
+    int binary = 1;  ///< BINARY
+  };
+  std::map<std::string, History> histories{};  ///< by the name of the file: glstat
+  /// When; not asked for where the deck does not name it.
+  OutputTimes history(const std::string& name) const {
+    const auto at = histories.find(name);
+    return at == histories.end() ? OutputTimes() : at->second.times;
+  }
   std::vector<Id> history_sph;            ///< particles in sphout
   std::vector<HistoryNode> history_node;  ///< nodes in nodout
   FieldRequests fields;

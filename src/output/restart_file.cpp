@@ -249,11 +249,11 @@ SavedState read_restart_file(const fs::path& file) {
 }
 
 std::vector<RestartFile> restart_files(const fs::path& folder) {
-  struct Found {
+  struct DatedFile {
     RestartFile file;
     fs::file_time_type written;
   };
-  std::vector<Found> found;
+  std::vector<DatedFile> found;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code no_file;
@@ -267,11 +267,11 @@ std::vector<RestartFile> restart_files(const fs::path& folder) {
     if (stream && parse(text, trailer))
       found.push_back({{it->path(), trailer.cycle}, fs::last_write_time(it->path(), unknown)});
   }
-  std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+  std::sort(found.begin(), found.end(), [](const DatedFile& a, const DatedFile& b) {
     return a.file.cycle != b.file.cycle ? a.file.cycle > b.file.cycle : a.written > b.written;
   });
   std::vector<RestartFile> out;
-  for (Found& one : found) out.push_back(std::move(one.file));
+  for (DatedFile& one : found) out.push_back(std::move(one.file));
   return out;
 }
 

@@ -15,8 +15,6 @@ inline constexpr const char* lock = ".courant_lock";
 inline constexpr const char* binout = "binout0000";
 inline constexpr const char* d3plot = "d3plot";  ///< and d3plot01, d3plot02, ...
 inline constexpr const char* whole[] = {messag, summary, history, fields_index, relaxation, lock, binout};
-inline constexpr const char* ascii[] = {"glstat", "matsum", "rcforc",  "sphout", "sleout",
-                                        "nodout", "rbdout", "spcforc", "bndout", "rwforc"};
 inline constexpr const char* folders[] = {"fields", "restart", "restart_old"};
 }  // namespace result_names
 

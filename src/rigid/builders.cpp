@@ -2,13 +2,13 @@
 #include "extension/builders.hpp"
 #include "extension/part_values.hpp"
 #include "loads/loads.hpp"
-#include "rigid/body_cards.hpp"
-#include "rigid/build_joints.hpp"
-#include "rigid/joint_stiffness.hpp"
-#include "rigid/nodal_bodies.hpp"
-#include "rigid/rigid.hpp"
-#include "rigid/switched_parts.hpp"
-#include "rigid/time_limit.hpp"
+#include "rigid/bodies/body_cards.hpp"
+#include "rigid/bodies/nodal_bodies.hpp"
+#include "rigid/bodies/rigid.hpp"
+#include "rigid/bodies/time_limit.hpp"
+#include "rigid/joints/build_joints.hpp"
+#include "rigid/joints/joint_stiffness.hpp"
+#include "rigid/switches/switched_parts.hpp"
 
 namespace courant {
 

@@ -182,7 +182,7 @@ void Neighbours::choose_skin(const Clock& clock) {
   skin_ = std::clamp(std::sqrt(skin_weight_ * move * h_max_), least_skin_, most_skin_);
 }
 
-void Neighbours::Found::make_room(Index more) {
+void Neighbours::GroupNeighbours::make_room(Index more) {
   const auto grow = [more](std::vector<Index>& to, Index count) {
     if (static_cast<Index>(to.size()) <= count + more) to.resize(2 * (count + more) + 64);
   };
@@ -198,8 +198,8 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  for (Found* to : {&scratch.other, &scratch.later, &scratch.earlier}) to->found = {};
-  const auto look = [&](Index begin, Index end, Found& to) {
+  for (GroupNeighbours* to : {&scratch.other, &scratch.later, &scratch.earlier}) to->found = {};
+  const auto look = [&](Index begin, Index end, GroupNeighbours& to) {
     if (begin >= end) return;
     to.make_room(end - begin);
     near_.find(q, begin, end, to.found);
@@ -252,7 +252,7 @@ void Neighbours::build_lists(World& world) {
       q.count = std::min(lanes, end - q.first);
       if (q.count <= 0) continue;
       find_list_of_group(world, q, scratch);
-      const Found &other = scratch.other, &later = scratch.later, &earlier = scratch.earlier;
+      const GroupNeighbours &other = scratch.other, &later = scratch.later, &earlier = scratch.earlier;
       at.later = add(other.within, other.found.within_count);
       at.beyond = add(later.within, later.found.within_count);
       at.later_end = add(later.beyond, later.found.beyond_count);

@@ -122,14 +122,14 @@ class Neighbours {
     Index reach;  ///< behind the last particle that has a list among its entries
   };
   /// What the search finds for a group among particles of one kind.
-  struct Found {
+  struct GroupNeighbours {
     std::vector<Index> within, beyond;
     NearFound found{};
     void make_room(Index more);
   };
   struct Scratch {
-    Found other, later, earlier;  ///< see ListSections
-    std::vector<Index> all;       ///< of a block
+    GroupNeighbours other, later, earlier;  ///< see ListSections
+    std::vector<Index> all;                 ///< of a block
   };
   class Watch;
 

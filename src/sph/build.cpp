@@ -25,10 +25,10 @@ struct PartSmoothing {
   Real cslh = 1.2, hmin = 0.2, hmax = 2, sphini = 0;
 };
 
-class Builder {
+class ParticleBuilder {
  public:
-  Builder(const Deck& deck, const Model& model, const std::function<SphMaterial(Index)>& material,
-          World& world, Diagnostics& diagnostics)
+  ParticleBuilder(const Deck& deck, const Model& model, const std::function<SphMaterial(Index)>& material,
+                  World& world, Diagnostics& diagnostics)
       : deck_(deck), model_(model), material_(material), world_(world), diagnostics_(diagnostics) {}
 
   SphSettings build() {
@@ -408,7 +408,7 @@ class Builder {
 SphSettings build_particles(const Deck& deck, const Model& model,
                             const std::function<SphMaterial(Index part)>& material, World& world,
                             Diagnostics& diagnostics) {
-  return Builder(deck, model, material, world, diagnostics).build();
+  return ParticleBuilder(deck, model, material, world, diagnostics).build();
 }
 
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,

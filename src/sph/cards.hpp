@@ -3,6 +3,6 @@
 #include "keyword/deck.hpp"
 #include "model/conditions/condition_cards.hpp"
 #include "sph/boundaries/boundary_cards.hpp"
-#include "sph/core/kernel_cards.hpp"
+#include "sph/kernel/kernel_cards.hpp"
 #include "sph/options/option_cards.hpp"
 #include "sph/sph_cards.hpp"

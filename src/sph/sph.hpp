@@ -11,10 +11,10 @@
 #include "loads/body_acceleration.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
-#include "sph/boundaries/wall_belts.hpp"
-#include "sph/boundaries/wall_law.hpp"
-#include "sph/core/kernel_choice.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 #include "sph/turbulence/turbulence.hpp"
+#include "sph/walls/wall_belts.hpp"
+#include "sph/walls/wall_law.hpp"
 #include "state/world.hpp"
 
 namespace courant {

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "output/vtk_cell.hpp"
+#include "output/fields/vtk_cell.hpp"
 
 namespace courant {
 namespace {

@@ -16,7 +16,7 @@ PYTHON = re.compile(r"\.write_(?:text|bytes)\(|\bsavefig\((?!frame,|content,|fil
                     r"h5py\.File\((?![^\n]*(?:backing_store=False|open_file_image))[^\n]*\"[wax+r]*[wax+]|\.open\(\"[^\"]*[wax+]")
 # An open file or a rename that is none of these: what, and why.
 ALLOWED = {
-    "src/app/restart.cpp": "fs::rename(one.file, to, error)",  # restart files of a run that is done once more go to restart_old
+    "src/app/run/restart.cpp": "fs::rename(one.file, to, error)",  # restart files of a run that is done once more go to restart_old
 }
 ALONE = {"src/output/file.cpp", "src/python/courant/files.py"}
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 
 namespace courant::benchmarks {
 

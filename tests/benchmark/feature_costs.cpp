@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "bare_steps.hpp"
-#include "output/ascii.hpp"
+#include "output/ascii/ascii.hpp"
 #include "parallel/parallel.hpp"
 
 using namespace courant;
@@ -62,8 +62,9 @@ Feature with_histories(int n) {
   const auto dir = std::filesystem::temp_directory_path() / fmt::format("courant_features_{}", ::getpid());
   std::filesystem::create_directories(dir);
   HistoryRequests wanted;
-  wanted.glstat = wanted.matsum = wanted.sphout = 1e-12;  // due whenever they are asked
-  wanted.parts.push_back({1, "water"});
+  for (const char* name : {"glstat", "matsum", "sphout"})
+    wanted.ask(name, 1e-12);  // due whenever they are asked
+  wanted.titles.parts.push_back({1, "water"});
   std::shared_ptr<Histories> files(new Histories(dir, wanted), [dir](Histories* h) {
     delete h;
     std::filesystem::remove_all(dir);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 #include "work.hpp"
 
 namespace courant::benchmarks {

@@ -1,6 +1,6 @@
 #pragma once
 // The two pair loops alone.
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 
 namespace courant::benchmarks {
 

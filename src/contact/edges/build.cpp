@@ -59,14 +59,14 @@ class EdgeContactBuilder {
 
  private:
   using Key = std::pair<Index, Index>;
-  struct Found {
+  struct FacesAtEdge {
     std::vector<Index> shells, solids;  ///< segments
     unsigned sides = 0;
   };
 
   std::vector<ContactEdge> edges_of_faces(const ContactCard& c, const ContactKind& kind,
                                           const NodeContactLaw& law) {
-    std::map<Key, Found> found;
+    std::map<Key, FacesAtEdge> found;
     const Segments& g = world_.segments;
     const auto take = [&](const std::vector<Index>& faces, unsigned sides) {
       for (const Index s : faces) {
@@ -74,7 +74,7 @@ class EdgeContactBuilder {
         for (std::size_t e = 0; e < 4; ++e) {
           const Index n = a[e], next = a[(e + 1) % 4];
           if (n == next) continue;
-          Found& one = found[{std::min(n, next), std::max(n, next)}];
+          FacesAtEdge& one = found[{std::min(n, next), std::max(n, next)}];
           std::vector<Index>& list = g.volume[s] > 0 ? one.solids : one.shells;
           if (std::find(list.begin(), list.end(), s) == list.end()) list.push_back(s);
           one.sides |= sides;

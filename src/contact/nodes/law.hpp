@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/real.hpp"
-#include "loads/sensors.hpp"
+#include "loads/sensors/sensors.hpp"
 
 namespace courant {
 

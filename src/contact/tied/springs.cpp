@@ -91,7 +91,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
       Vec force = Vec::Zero();
       bool any = false;
       shares_.for_each(n, [&](const TieShares::Share& share) {
-        const Now& one = now_[static_cast<std::size_t>(share.tie)];
+        const SpringState& one = now_[static_cast<std::size_t>(share.tie)];
         force += share.corner < 0 ? one.force : one.on[static_cast<std::size_t>(share.corner)];
         any = true;
       });
@@ -103,11 +103,11 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     lost_so_far_ += lost_, lost_ = 0;
   }
   void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
-    for (const Now& one : now_) ledger.contact += one.stored;
+    for (const SpringState& one : now_) ledger.contact += one.stored;
   }
   InterfaceForce report() const override {
     InterfaceForce out{.id = law_.id, .title = law_.title};
-    for (const Now& one : now_) out.on_surfa += one.force, out.energy_stored += one.stored;
+    for (const SpringState& one : now_) out.on_surfa += one.force, out.energy_stored += one.stored;
     out.energy_damping = lost_so_far_;
     return out;
   }
@@ -136,7 +136,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     over_ = 1;
   }
 
-  struct Now {
+  struct SpringState {
     Vec force = Vec::Zero();  ///< on the node [ML/T2]
     std::array<Vec, 4> on{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
     Real stored = 0;  ///< [ML2/T2]
@@ -146,7 +146,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
 
   void look(const World& world, std::size_t t) {
     const Tie& tie = ties_[t];
-    Now& now = now_[t];
+    SpringState& now = now_[t];
     if (broken_[t]) return;
     const Field<Real>& x = world.nodes.x;
     const Vec away = x.vec(tie.node) - place_of(tie.at, x);
@@ -167,7 +167,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     const auto held_at = [&](Real wide) {
       return ties_[t].k * onset_[t] * (none - wide) / (none - onset_[t]);
     };
-    Now& now = now_[t];
+    SpringState& now = now_[t];
     if (c >= none) {
       now.stored = 0.5 * held_at(before) * none;
       now.breaks = true;
@@ -197,7 +197,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
 
   std::vector<Index> broken_;
   std::vector<Real> onset_, widest_;  ///< distances where damage began and has come to, 0: not yet [L]
-  std::vector<Now> now_;
+  std::vector<SpringState> now_;
   Index nodes_;  ///< of the world
   TieShares shares_;
   const Field<Index>* eroded_;       ///< of segments; null: nothing fails

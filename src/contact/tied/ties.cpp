@@ -27,7 +27,7 @@ void take_area(const TieNode& node, const TieFace& f, const Vec& n, Tie& tie) {
   constexpr Real alike = 0.5;  // cosine
   tie.area = tie.cell = 0;
   Real stiffness = f.k, count = 0;
-  for (const TieNode::Own& own : node.own) {
+  for (const TieNode::OwnFace& own : node.own) {
     const Real along = std::abs(own.area.dot(n));
     if (along < alike * own.area.norm()) continue;
     tie.area += along / own.corners, tie.cell += along, ++count;

@@ -8,14 +8,14 @@ namespace courant {
 
 /// A node that may be tied.
 struct TieNode {
-  struct Own {
+  struct OwnFace {
     Vec area = Vec::Zero();  ///< of a face of its own, along the normal [L2]
     int corners = 4;         ///< which share that
     Real stiffness = 0;      ///< of the face, per area [M/L2T2]
   };
-  Index node = 0;          ///< index into World::nodes
-  Real thickness = 0;      ///< of its shells, 0 without [L]
-  std::vector<Own> own{};  ///< faces that it is a corner of
+  Index node = 0;              ///< index into World::nodes
+  Real thickness = 0;          ///< of its shells, 0 without [L]
+  std::vector<OwnFace> own{};  ///< faces that it is a corner of
 };
 
 /// A face to which nodes may be tied; ContactFace::r is half its thickness, ::k its stiffness per area

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "laws/strength/mat_spotweld.hpp"
+#include "laws/materials/mat_spotweld.hpp"
 #include "state/access.hpp"
 #include "state/entities.hpp"
 #include "state/world.hpp"

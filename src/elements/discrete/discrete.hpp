@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "elements/discrete/spring_law.hpp"
+#include "laws/discrete/spring_law.hpp"
 #include "state/wall_bodies.hpp"
 #include "state/world.hpp"
 

@@ -11,7 +11,7 @@
 #include "elements/histories/element_choice.hpp"
 #include "elements/histories/elout_text.hpp"
 #include "extension/additions.hpp"
-#include "keyword/law_names.hpp"
+#include "keyword/help/law_names.hpp"
 #include "laws/strength/strength.hpp"
 #include "model/requests/output_cards.hpp"
 
@@ -23,15 +23,15 @@ constexpr ElementKind kinds_of_elout[] = {ElementKind::solid, ElementKind::beam,
 
 /// What a deck asks for.
 struct Elout : Pass {
-  struct Wanted {
+  struct ListedElement {
     ReportedElement element;
     std::string title;
     Id part = 0;
     int material = 0;
   };
   std::string name() const override { return "elout"; }
-  std::array<std::vector<Wanted>, 3> wanted{};  ///< of each kind, by id
-  std::array<int, 3> history{};                 ///< numbers of the law to print
+  std::array<std::vector<ListedElement>, 3> wanted{};  ///< of each kind, by id
+  std::array<int, 3> history{};                        ///< numbers of the law to print
   ElementReportOptions options{};
 };
 
@@ -77,12 +77,13 @@ class EloutReader {
         {*one, title, part.id, material == materials_.end() ? 0 : material->second});
   }
   /// Each once; a heading wins over a mention without one.
-  static void sort(std::vector<Elout::Wanted>& list) {
-    std::stable_sort(list.begin(), list.end(), [](const Elout::Wanted& a, const Elout::Wanted& b) {
-      return a.element.id() != b.element.id() ? a.element.id() < b.element.id()
-                                              : a.title.empty() < b.title.empty();
-    });
-    const auto same = [](const Elout::Wanted& a, const Elout::Wanted& b) {
+  static void sort(std::vector<Elout::ListedElement>& list) {
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Elout::ListedElement& a, const Elout::ListedElement& b) {
+                       return a.element.id() != b.element.id() ? a.element.id() < b.element.id()
+                                                               : a.title.empty() < b.title.empty();
+                     });
+    const auto same = [](const Elout::ListedElement& a, const Elout::ListedElement& b) {
       return a.element.id() == b.element.id();
     };
     list.erase(std::unique(list.begin(), list.end(), same), list.end());
@@ -125,7 +126,7 @@ std::string elout_state(const World& world, const Clock& clock) {
     const auto k = static_cast<std::size_t>(kind);
     if (!elout || elout->wanted[k].empty()) continue;
     std::vector<EloutElement> elements;
-    for (const Elout::Wanted& one : elout->wanted[k])
+    for (const Elout::ListedElement& one : elout->wanted[k])
       elements.push_back({one.element.id(), one.part, one.material,
                           one.element.reporter->report_element(world, one.element.e, elout->options)});
     text += elout_text(kind, elements, clock, elout->options.local_axes, elout->history[k]);
@@ -140,7 +141,7 @@ const RegisterAsciiHistory elout{{.name = "elout",
                                     std::vector<std::pair<Id, std::string>> out;
                                     if (const Elout* elout = elout_of(world))
                                       for (const auto& list : elout->wanted)
-                                        for (const Elout::Wanted& one : list)
+                                        for (const Elout::ListedElement& one : list)
                                           if (!one.title.empty())
                                             out.emplace_back(one.element.id(), one.title);
                                     return out;

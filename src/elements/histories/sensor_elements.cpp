@@ -11,8 +11,8 @@
 #include "elements/histories/history_cards.hpp"
 #include "elements/histories/secforc.hpp"
 #include "keyword/registry.hpp"
-#include "loads/sensor_force.hpp"
-#include "loads/sensors.hpp"
+#include "loads/sensors/sensor_force.hpp"
+#include "loads/sensors/sensors.hpp"
 
 namespace courant {
 

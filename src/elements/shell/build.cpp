@@ -9,10 +9,10 @@
 #include "elements/shell/hourglass_shell.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shells.hpp"
+#include "elements/shell_faces/section_shell.hpp"
 #include "laws/fluid/mat_null.hpp"
 #include "model/cards.hpp"
 #include "model/conditions/condition_cards.hpp"
-#include "shell/section_shell.hpp"
 
 namespace courant {
 

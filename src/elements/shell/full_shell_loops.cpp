@@ -164,8 +164,8 @@ void full_strain(const ShellLoops::Block& block, const ShellControl& control, co
                    block.dt, control, mesh, state, scratch);
 }
 
-ShellLoops::Found full_forces(const ShellLoops::Block& block, const ShellControl& control,
-                              const ShellState& state, ShellScratch& scratch) {
+ShellLoops::StableStep full_forces(const ShellLoops::Block& block, const ShellControl& control,
+                                   const ShellState& state, ShellScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes)
     full_forces_of(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
                    block.dt, control, state, scratch);

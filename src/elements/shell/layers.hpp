@@ -6,8 +6,8 @@
 
 #include "elements/shell/shell_element_cards.hpp"
 #include "elements/shell/shells.hpp"
+#include "elements/shell_faces/section_shell.hpp"
 #include "keyword/deck.hpp"
-#include "shell/section_shell.hpp"
 
 namespace courant {
 

@@ -125,7 +125,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
     ShellScratch scratch;
-    ShellLoops::Found& found = found_[static_cast<std::size_t>(begin / block_size)];
+    ShellLoops::StableStep& found = found_[static_cast<std::size_t>(begin / block_size)];
     const Index count = end - begin;
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
@@ -147,8 +147,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
 
   Limit limit(const World&, const Clock&) override {
-    const ShellLoops::Found* least = &found_.front();
-    for (const ShellLoops::Found& found : found_)
+    const ShellLoops::StableStep* least = &found_.front();
+    for (const ShellLoops::StableStep& found : found_)
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
     return {tssfac_ * least->step, fmt::format("shell {} of part {}{}", group_.id[least->shortest], part_id_,
                                                by_mesh_ ? " (frequency of its mesh)" : "")};
@@ -187,8 +187,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   static constexpr std::size_t most_history = 16;
 
   int layers() const { return state_.points / places_; }
-  ShellLoops::Found advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
-                            Index end, ShellScratch& scratch, const Clock* failing = nullptr) const {
+  ShellLoops::StableStep advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
+                                 Index end, ShellScratch& scratch, const Clock* failing = nullptr) const {
     const ShellLoops::Block block{begin, end - begin, dt};
     const ShellState& pushing = damped_ ? *damped_ : state_;
     loops_.strain(block, control, mesh, pushing, scratch);
@@ -226,7 +226,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
     if (flow) flow->keep(flow_stress_->data() + begin);
-    const ShellLoops::Found found = loops_.forces(block, control, pushing, scratch);
+    const ShellLoops::StableStep found = loops_.forces(block, control, pushing, scratch);
     for (Index i = 0; stiffens_ && i < block.count; ++i)
       scratch.step_limit[i] /= faster[i], scratch.wave_time[i] /= faster[i];
     return found;
@@ -326,7 +326,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     ShellControl elastic = control_;
     elastic.Q1 = elastic.Q2 = 0, elastic.thins = false;
     if (!control_.stiffness) elastic.QM = elastic.QB = elastic.QW = 0;
-    std::vector<ShellLoops::Found> found(found_.size());
+    std::vector<ShellLoops::StableStep> found(found_.size());
     const Real omega = largest_frequency(mass, all_held, small * std::sqrt(least_area),
                                          [&](const NodalVector& u, NodalVector& Ku) {
                                            for (std::size_t k = 0; k < 3; ++k)
@@ -342,7 +342,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
                                            own.assemble(group_.sums->moment, place_node, -1, Ku, nodes);
                                          });
     Real step = std::numeric_limits<Real>::infinity();
-    for (const ShellLoops::Found& f : found) step = std::min(step, f.step);
+    for (const ShellLoops::StableStep& f : found) step = std::min(step, f.step);
     reset();
     const Real asked = tssfac_;
     tssfac_ = below_frequency(asked, step, omega);
@@ -410,7 +410,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   ShellMesh mesh_{};
   ShellState state_{};
   std::vector<Real*> history_data_;
-  std::vector<ShellLoops::Found> found_;       ///< in each block
+  std::vector<ShellLoops::StableStep> found_;  ///< in each block
   std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
   std::unique_ptr<ShellState> damped_;         ///< with the stress that pushes the nodes; null: `state_`

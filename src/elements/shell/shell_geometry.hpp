@@ -54,10 +54,10 @@ COURANT_INLINE Slopes slopes(const Flat& f, Native v0, Native v1) {
   return {0.5 * (f.y1 * v0 - f.y0 * v1), 0.5 * (f.x0 * v1 - f.x1 * v0)};
 }
 /// The transpose: what a force P per slope x and R per slope y is along the differences.
-struct Along {
+struct SideForces {
   Native d0, d1;
 };
-COURANT_INLINE Along along(const Flat& f, Native P, Native R) {
+COURANT_INLINE SideForces along(const Flat& f, Native P, Native R) {
   return {0.5 * (f.y1 * P - f.x1 * R), 0.5 * (f.x0 * R - f.y0 * P)};
 }
 
@@ -220,7 +220,8 @@ COURANT_INLINE Native new_thickness(Index first, Index n, Index k, Real dt, cons
 }
 
 /// The least stable step of a block.
-COURANT_INLINE ShellLoops::Found shortest_of(const ShellLoops::Block& block, const ShellScratch& scratch) {
+COURANT_INLINE ShellLoops::StableStep shortest_of(const ShellLoops::Block& block,
+                                                  const ShellScratch& scratch) {
   const Real* limit = scratch.step_limit;
   Index at = 0;
   for (Index i = 1; i < block.count; ++i)

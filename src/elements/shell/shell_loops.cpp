@@ -89,8 +89,8 @@ COURANT_INLINE void store_moments(Index k, const Flat& f, const Native R[8], con
   const Native a = f.hx * f.inverse_A, b = f.hy * f.inverse_A;
   const bool has_hourglass = corners == quad;
   const Native qx = has_hourglass ? Q[3] : all(0), qy = has_hourglass ? Q[4] : all(0);
-  const Along x = has_hourglass ? along(f, -R[5] - a * qx, -R[4] - b * qx) : along(f, -R[5], -R[4]),
-              y = has_hourglass ? along(f, R[3] - a * qy, R[5] - b * qy) : along(f, R[3], R[5]);
+  const SideForces x = has_hourglass ? along(f, -R[5] - a * qx, -R[4] - b * qx) : along(f, -R[5], -R[4]),
+                   y = has_hourglass ? along(f, R[3] - a * qy, R[5] - b * qy) : along(f, R[3], R[5]);
   const Triple d0 = x.d0 * f.e1 + y.d0 * f.e2, d1 = x.d1 * f.e1 + y.d1 * f.e2;
   Real(*const out)[block_size] = scratch.corner_moment;
   if (corners == quad) {
@@ -123,7 +123,7 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Shel
   const Native q = bulk_viscosity<corners>(first, n, k, dt, t, rho, d, f, control, state, s);
 
   const Native Nxx = R[0] - q * t, Nyy = R[1] - q * t;
-  Along x, y, z;
+  SideForces x, y, z;
   Triple h{all(0), all(0), all(0)};
   if (corners == quad) {
     hourglass_forces(first, n, k, dt, t, f, rho, control, state, s, Q);
@@ -148,8 +148,8 @@ void strain(const ShellLoops::Block& block, const ShellControl& control, const S
 }
 
 template <int corners>
-ShellLoops::Found forces(const ShellLoops::Block& block, const ShellControl& control, const ShellState& state,
-                         ShellScratch& scratch) {
+ShellLoops::StableStep forces(const ShellLoops::Block& block, const ShellControl& control,
+                              const ShellState& state, ShellScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes)
     forces_of<corners>(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
                        block.dt, control, state, scratch);

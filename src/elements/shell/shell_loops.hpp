@@ -91,7 +91,7 @@ struct ShellLoops {
     Index begin, count;
     Real dt;  ///< of the step that led here; 0: none yet [T]
   };
-  struct Found {
+  struct StableStep {
     Real step;       ///< least stable step; not a number where that of an element is [T]
     Index shortest;  ///< whose it is, of the group
   };
@@ -100,8 +100,8 @@ struct ShellLoops {
   void (*at_point)(const Block& block, int point, const ShellState& state, ShellScratch& scratch);
   /// Behind the law: resultants and their work, corner forces and moments with the geometry at the end of the
   /// step, energies, thickness, stable step.
-  Found (*forces)(const Block& block, const ShellControl& control, const ShellState& state,
-                  ShellScratch& scratch);
+  StableStep (*forces)(const Block& block, const ShellControl& control, const ShellState& state,
+                       ShellScratch& scratch);
 };
 
 /// For the machine the program runs on.

@@ -90,8 +90,8 @@ void warped_strain(const ShellLoops::Block& block, const ShellControl& control, 
                      block.dt, control, mesh, state, scratch);
 }
 
-ShellLoops::Found warped_forces(const ShellLoops::Block& block, const ShellControl& control,
-                                const ShellState& state, ShellScratch& scratch) {
+ShellLoops::StableStep warped_forces(const ShellLoops::Block& block, const ShellControl& control,
+                                     const ShellState& state, ShellScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes)
     warped_forces_of(block.begin + k, block.count - k < native_lanes ? block.count - k : native_lanes, k,
                      block.dt, control, state, scratch);

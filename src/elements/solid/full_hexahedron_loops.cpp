@@ -194,8 +194,8 @@ void add_point(const FullHexahedronLoops::Block& block, int point, const Hexahed
   if (whole < block.count)
     add_of(block.begin + whole, block.count - whole, whole, block.dt, at, state, scratch);
 }
-HexahedronLoops::Found forces(const FullHexahedronLoops::Block& block, const HexahedronControl& control,
-                              const HexahedronState& state, FullHexahedronScratch& scratch) {
+HexahedronLoops::StableStep forces(const FullHexahedronLoops::Block& block, const HexahedronControl& control,
+                                   const HexahedronState& state, FullHexahedronScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     forces_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);

@@ -34,8 +34,8 @@ struct FullHexahedronLoops {
   /// Behind the law: the other half, and what the stress does to the corners at the end of the step.
   void (*add)(const Block& block, int point, const HexahedronState& state, FullHexahedronScratch& scratch);
   /// Corner forces, energies, stable step.
-  HexahedronLoops::Found (*forces)(const Block& block, const HexahedronControl& control,
-                                   const HexahedronState& state, FullHexahedronScratch& scratch);
+  HexahedronLoops::StableStep (*forces)(const Block& block, const HexahedronControl& control,
+                                        const HexahedronState& state, FullHexahedronScratch& scratch);
 };
 
 /// For the machine the program runs on.

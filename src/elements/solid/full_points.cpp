@@ -45,8 +45,9 @@ PointBlock FullPoints::at_point(int p, const HexahedronLoops::Block& block, Full
   return at;
 }
 
-HexahedronLoops::Found FullPoints::advance(const Answer& of, const HexahedronLoops::Block& block,
-                                           FullHexahedronScratch& scratch, const Between& between) const {
+HexahedronLoops::StableStep FullPoints::advance(const BlockOfSolids& of, const HexahedronLoops::Block& block,
+                                                FullHexahedronScratch& scratch,
+                                                const Between& between) const {
   loops_.gather(block, of.mesh, of.state, scratch);
   between.gathered();
   loops_.begin(block, false, scratch);

@@ -17,7 +17,7 @@ class StiffnessDamping;
 class FullPoints {
  public:
   /// What a block of elements moves by, and answers with. Stress and tensors of `state` are not looked at.
-  struct Answer {
+  struct BlockOfSolids {
     const HexahedronMesh& mesh;
     const HexahedronControl& control;
     const HexahedronState& state;
@@ -27,9 +27,9 @@ class FullPoints {
   /// energy. A point that has failed has no deviator; the pressure stays until the element goes.
   struct Fluid {
     const SolidPressure& law;
-    const Real* energy;            ///< internal, of the elements [ML2/T2]
-    Real* memory;                  ///< as of SolidPressure::split
-    SolidPressure::Found found{};  ///< out
+    const Real* energy;             ///< internal, of the elements [ML2/T2]
+    Real* memory;                   ///< as of SolidPressure::split
+    SolidPressure::Faults found{};  ///< out
   };
   /// What happens behind the gathering of the corners, and behind the law at each point.
   struct Between {
@@ -44,11 +44,12 @@ class FullPoints {
   /// Null: by none.
   void damp_by(const StiffnessDamping* damping) { damping_ = damping; }
   void declare(Accesses& a) const;
-  HexahedronLoops::Found advance(const Answer& of, const HexahedronLoops::Block& block,
-                                 FullHexahedronScratch& scratch, const Between& between) const;
+  HexahedronLoops::StableStep advance(const BlockOfSolids& of, const HexahedronLoops::Block& block,
+                                      FullHexahedronScratch& scratch, const Between& between) const;
   /// The same with an equation of state.
-  HexahedronLoops::Found advance(const Answer& of, Fluid& fluid, const HexahedronLoops::Block& block,
-                                 FullHexahedronScratch& scratch, const Between& between) const;
+  HexahedronLoops::StableStep advance(const BlockOfSolids& of, Fluid& fluid,
+                                      const HexahedronLoops::Block& block, FullHexahedronScratch& scratch,
+                                      const Between& between) const;
   /// No stress, no history.
   void reset();
   /// What all points of an element have of a tensor of the law's history, the one with this number.

@@ -10,7 +10,7 @@ namespace courant {
 namespace {
 
 /// Of the points of a block, until the pressure is known.
-struct Kept {
+struct PointRates {
   std::array<std::array<std::array<Real, block_size>, 6>, FullHexahedronLoops::points> rate;
   std::array<Real, block_size> cutoff;  ///< of the point at work [M/LT2]
 };
@@ -27,9 +27,10 @@ void strip(const PointBlock& at) {
 
 // As SolidPressure has it of one point, the deviators' work being that of all of them. Where one point bears
 // less tension (spall), the element does.
-HexahedronLoops::Found FullPoints::advance(const Answer& of, Fluid& fluid,
-                                           const HexahedronLoops::Block& block,
-                                           FullHexahedronScratch& scratch, const Between& between) const {
+HexahedronLoops::StableStep FullPoints::advance(const BlockOfSolids& of, Fluid& fluid,
+                                                const HexahedronLoops::Block& block,
+                                                FullHexahedronScratch& scratch,
+                                                const Between& between) const {
   loops_.gather(block, of.mesh, of.state, scratch);
   between.gathered();
   loops_.begin(block, true, scratch);
@@ -40,7 +41,7 @@ HexahedronLoops::Found FullPoints::advance(const Answer& of, Fluid& fluid,
   HexahedronState state = of.state;
   state.tensors = static_cast<int>(tensors_.size());
   std::array<Real*, 16> history{};
-  Kept kept;
+  PointRates kept;
   for (int point = 0; point < points; ++point) {
     PointBlock at = at_point(point, block, scratch, state, history);
     strip(at);

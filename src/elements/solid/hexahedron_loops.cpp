@@ -292,8 +292,8 @@ void work(const HexahedronLoops::Block& block, const HexahedronState& state, Hex
         (1.0 / 3) * (xx[i] + yy[i] + zz[i]) * (opened[i] - half * volume[i] * (dxx[i] + dyy[i] + dzz[i]));
 }
 
-HexahedronLoops::Found forces(const HexahedronLoops::Block& block, const HexahedronControl& control,
-                              const HexahedronState& state, HexahedronScratch& scratch) {
+HexahedronLoops::StableStep forces(const HexahedronLoops::Block& block, const HexahedronControl& control,
+                                   const HexahedronState& state, HexahedronScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     forces_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);

@@ -87,14 +87,14 @@ struct HexahedronLoops {
   /// : D V dt of the middle; with `heats` the mean stress through `opened`.
   void (*work)(const Block& block, const HexahedronState& state, HexahedronScratch& scratch);
   /// Corner forces with the geometry at the end of the step, energies, stable step.
-  struct Found {
+  struct StableStep {
     Real step;          ///< least stable step; not a number where that of an element is [T]
     Index shortest;     ///< whose it is, of the group
     Real least_volume;  ///< least V/V0; not a number where one is
     Index smallest;     ///< whose it is
   };
-  Found (*forces)(const Block& block, const HexahedronControl& control, const HexahedronState& state,
-                  HexahedronScratch& scratch);
+  StableStep (*forces)(const Block& block, const HexahedronControl& control, const HexahedronState& state,
+                       HexahedronScratch& scratch);
 };
 
 /// For the machine the program runs on.

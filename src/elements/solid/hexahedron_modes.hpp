@@ -158,8 +158,8 @@ inline Index least(const Real* values, Index count) {
   return at;
 }
 /// The shortest step of a block, and its most compressed element.
-inline HexahedronLoops::Found found_in(const HexahedronLoops::Block& block,
-                                       const HexahedronScratch& scratch) {
+inline HexahedronLoops::StableStep found_in(const HexahedronLoops::Block& block,
+                                            const HexahedronScratch& scratch) {
   const Index shortest = least(scratch.step_limit, block.count);
   const Index smallest = least(scratch.relative_volume, block.count);
   return {scratch.step_limit[shortest], block.begin + shortest, scratch.relative_volume[smallest],

@@ -17,7 +17,7 @@ void stop_for_compression(const ElementGroup& group, Id part, Real mu_limit, Ind
       StopCause::density);
 }
 
-void stop_for_volume(const ElementGroup& group, Id part, const HexahedronLoops::Found& found,
+void stop_for_volume(const ElementGroup& group, Id part, const HexahedronLoops::StableStep& found,
                      const Clock& clock) {
   const ReadsForMessage unchecked;
   throw RunError(

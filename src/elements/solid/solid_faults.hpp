@@ -10,7 +10,7 @@ namespace courant {
 [[noreturn]] void stop_for_compression(const ElementGroup& group, Id part, Real mu_limit, Index e,
                                        const Clock& clock);
 /// An element is turned inside out, or has a volume that is no number.
-[[noreturn]] void stop_for_volume(const ElementGroup& group, Id part, const HexahedronLoops::Found& found,
-                                  const Clock& clock);
+[[noreturn]] void stop_for_volume(const ElementGroup& group, Id part,
+                                  const HexahedronLoops::StableStep& found, const Clock& clock);
 
 }  // namespace courant

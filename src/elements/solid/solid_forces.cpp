@@ -124,7 +124,7 @@ class SolidForces : public Material,
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
     FullHexahedronScratch scratch;
-    HexahedronLoops::Found& found = found_[static_cast<std::size_t>(begin / block_size)];
+    HexahedronLoops::StableStep& found = found_[static_cast<std::size_t>(begin / block_size)];
     const Index count = end - begin;
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance({mesh_, control_, state_, *law_, material_.pressure.get(), nodal_.get()}, clock.dt_old,
@@ -143,9 +143,9 @@ class SolidForces : public Material,
   }
   void finish(World& world, const Clock& clock) override {
     std::int64_t without_speed = 0;
-    for (const HexahedronLoops::Found& found : found_)
+    for (const HexahedronLoops::StableStep& found : found_)
       if (!(found.least_volume > 0)) stop_for_volume(group_, part_id_, found, clock);
-    for (const SolidPressure::Found& found : of_pressure_) {
+    for (const SolidPressure::Faults& found : of_pressure_) {
       without_speed += found.without_speed;
       if (found.beyond >= 0)
         stop_for_compression(group_, part_id_, material_.pressure->eos().mu_limit(), found.beyond, clock);
@@ -156,8 +156,8 @@ class SolidForces : public Material,
   }
 
   Limit limit(const World&, const Clock&) override {
-    const HexahedronLoops::Found* least = &found_.front();
-    for (const HexahedronLoops::Found& found : found_)
+    const HexahedronLoops::StableStep* least = &found_.front();
+    for (const HexahedronLoops::StableStep& found : found_)
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
     return {tssfac_ * least->step, fmt::format("solid {} of part {}{}", group_.id[least->shortest], part_id_,
                                                by_mesh_ ? " (frequency of its mesh)" : "")};
@@ -215,7 +215,7 @@ class SolidForces : public Material,
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
 
   /// What a block of elements moves by, and answers with.
-  struct Answer {
+  struct BlockOfSolids {
     const HexahedronMesh& mesh;
     const HexahedronControl& control;
     const HexahedronState& state;
@@ -224,8 +224,8 @@ class SolidForces : public Material,
     const NodalPressure* nodal;
   };
 
-  HexahedronLoops::Found advance(const Answer& of, Real dt, Index begin, Index end,
-                                 FullHexahedronScratch& scratch, const Clock* failing = nullptr) {
+  HexahedronLoops::StableStep advance(const BlockOfSolids& of, Real dt, Index begin, Index end,
+                                      FullHexahedronScratch& scratch, const Clock* failing = nullptr) {
     const HexahedronLoops::Block block{begin, end - begin, dt};
     if (full_) return advance_points(of, block, scratch, failing);
     loops_.strain(block, of.mesh, of.control, of.state, scratch);
@@ -258,18 +258,18 @@ class SolidForces : public Material,
     for (int k = 0; k < 6; ++k) damped.stress[k] = damping_->damped(0, k);
     return push(of, block, damped, scratch, by_nodes);
   }
-  HexahedronLoops::Found push(const Answer& of, const HexahedronLoops::Block& block,
-                              const HexahedronState& state, HexahedronScratch& scratch,
-                              const NodalPressure::Scratch& by_nodes) const {
+  HexahedronLoops::StableStep push(const BlockOfSolids& of, const HexahedronLoops::Block& block,
+                                   const HexahedronState& state, HexahedronScratch& scratch,
+                                   const NodalPressure::Scratch& by_nodes) const {
     loops_.work(block, state, scratch);
     if (of.nodal && !state.heats) of.nodal->work(block, state, scratch, by_nodes);
     return loops_.forces(block, of.control, state, scratch);
   }
 
   /// The same with eight points.
-  HexahedronLoops::Found advance_points(const Answer& of, const HexahedronLoops::Block& block,
-                                        FullHexahedronScratch& scratch, const Clock* failing) {
-    const FullPoints::Answer answer{of.mesh, of.control, of.state, of.law};
+  HexahedronLoops::StableStep advance_points(const BlockOfSolids& of, const HexahedronLoops::Block& block,
+                                             FullHexahedronScratch& scratch, const Clock* failing) {
+    const FullPoints::BlockOfSolids answer{of.mesh, of.control, of.state, of.law};
     const FullPoints::Between between{
         [&] {
           if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
@@ -277,7 +277,7 @@ class SolidForces : public Material,
         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }};
     if (!of.pressure) return full_->advance(answer, block, scratch, between);
     FullPoints::Fluid fluid{*of.pressure, internal_.data(), memory()};
-    const HexahedronLoops::Found out = full_->advance(answer, fluid, block, scratch, between);
+    const HexahedronLoops::StableStep out = full_->advance(answer, fluid, block, scratch, between);
     of_pressure_[static_cast<std::size_t>(block.begin / block_size)] = fluid.found;
     return out;
   }
@@ -291,8 +291,8 @@ class SolidForces : public Material,
   }
 
   /// The law gives the deviator, an equation of state the rest.
-  SolidPressure::Found update_with_pressure(const Answer& of, const HexahedronLoops::Block& block,
-                                            HexahedronScratch& scratch, PointBlock& points) const {
+  SolidPressure::Faults update_with_pressure(const BlockOfSolids& of, const HexahedronLoops::Block& block,
+                                             HexahedronScratch& scratch, PointBlock& points) const {
     SolidPressure::Scratch own;
     of.pressure->split(block, of.state, internal_.data(), memory(), scratch, own);
     loops_.viscosity(block, of.control, of.state, scratch);
@@ -331,7 +331,7 @@ class SolidForces : public Material,
     HexahedronControl elastic = control_;
     elastic.Q1 = elastic.Q2 = elastic.MU = 0;
     if (!elastic.stiff()) elastic.QM = 0;
-    std::vector<HexahedronLoops::Found> found(found_.size());
+    std::vector<HexahedronLoops::StableStep> found(found_.size());
     // an equation of state answers a change of volume, which nothing moves for here
     const std::shared_ptr<StrengthLaw> linear =
         material_.pressure ? linear_response(*material_.pressure, *law_) : law_;
@@ -349,7 +349,7 @@ class SolidForces : public Material,
           own.assemble(*group_.corner_force, -1, Ku);
         });
     Real step = std::numeric_limits<Real>::infinity();
-    for (const HexahedronLoops::Found& f : found) step = std::min(step, f.step);
+    for (const HexahedronLoops::StableStep& f : found) step = std::min(step, f.step);
     reset();
     const Real asked = tssfac_;
     tssfac_ = below_frequency(asked, step, omega);
@@ -465,8 +465,8 @@ class SolidForces : public Material,
   HexahedronMesh mesh_{};
   HexahedronState state_{};
   std::vector<Real*> history_data_;
-  std::vector<HexahedronLoops::Found> found_;  ///< in each block
-  std::vector<SolidPressure::Found> of_pressure_;
+  std::vector<HexahedronLoops::StableStep> found_;  ///< in each block
+  std::vector<SolidPressure::Faults> of_pressure_;
   std::unique_ptr<FullPoints> full_;           ///< null: elements have one point
   std::shared_ptr<NodalPressure> nodal_;       ///< null: pressures are those of elements
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none

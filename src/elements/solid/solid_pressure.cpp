@@ -86,11 +86,11 @@ void SolidPressure::begin(const HexahedronLoops::Block& block, const HexahedronC
   std::copy_n(scratch.work, block.count, own.counted);
 }
 
-SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block,
-                                             const HexahedronState& state, Real* pressure, Real* sound_speed,
-                                             HexahedronScratch& scratch, Scratch& own) const {
+SolidPressure::Faults SolidPressure::complete(const HexahedronLoops::Block& block,
+                                              const HexahedronState& state, Real* pressure, Real* sound_speed,
+                                              HexahedronScratch& scratch, Scratch& own) const {
   const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
-  Found found;
+  Faults found;
   for (Index i = 0; i < block.count; ++i) {
     const Real E = own.energy[i] + (scratch.work[i] - own.counted[i]) / V0[i];
     pressure[i] = finish(i, E, mu[i], own, sound_speed[i], found);
@@ -101,7 +101,7 @@ SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block
 }
 
 Real SolidPressure::finish(Index i, Real E, Real mu, const Scratch& own, Real& sound_speed,
-                           Found& found) const {
+                           Faults& found) const {
   const Real p = std::max((own.A[i] + own.B[i] * E) / (1 + own.B[i] * own.half_dv[i]), own.least_pressure[i]);
   E -= own.half_dv[i] * p;
   const Real v = 1 / (1 + mu);
@@ -125,12 +125,12 @@ void SolidPressure::predict(const HexahedronLoops::Block& block, const Hexahedro
   }
 }
 
-SolidPressure::Found SolidPressure::complete(const HexahedronLoops::Block& block,
-                                             const HexahedronState& state, HexahedronScratch& scratch,
-                                             Scratch& own) const {
+SolidPressure::Faults SolidPressure::complete(const HexahedronLoops::Block& block,
+                                              const HexahedronState& state, HexahedronScratch& scratch,
+                                              Scratch& own) const {
   Real* const* stress = state.stress;
   const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
-  Found found;
+  Faults found;
   for (Index i = 0; i < block.count; ++i) {
     const Index e = block.begin + i;
     Real power = 0;

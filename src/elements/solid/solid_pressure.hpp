@@ -30,7 +30,7 @@ class SolidPressure {
     Real counted[block_size];         ///< of eight points: work that is in `energy` [ML2/T2]
   };
   /// How a block turned out.
-  struct Found {
+  struct Faults {
     Index beyond = -1;        ///< an element of the group at which the law has ended; -1: none
     Index without_speed = 0;  ///< elements with c^2 < 0, whose share of the sound speed was taken as 0
   };
@@ -54,8 +54,8 @@ class SolidPressure {
   void predict(const HexahedronLoops::Block& block, const HexahedronState& state,
                const HexahedronScratch& scratch, Scratch& own) const;
   /// Behind the law: pressure back into the stress, and the sound speed, which the law left its share in.
-  Found complete(const HexahedronLoops::Block& block, const HexahedronState& state,
-                 HexahedronScratch& scratch, Scratch& own) const;
+  Faults complete(const HexahedronLoops::Block& block, const HexahedronState& state,
+                  HexahedronScratch& scratch, Scratch& own) const;
 
   // The same of elements with eight points and one pressure, whose deviators are told apart:
   /// What begins a step. `pressure`: of the block; energy and memory of all elements; tr D, of the block.
@@ -70,8 +70,8 @@ class SolidPressure {
              Scratch& own) const;
   /// Behind them, with their work in `scratch`: the pressure, its work, and in the place of the law's share
   /// the sound speed, both of the block.
-  Found complete(const HexahedronLoops::Block& block, const HexahedronState& state, Real* pressure,
-                 Real* sound_speed, HexahedronScratch& scratch, Scratch& own) const;
+  Faults complete(const HexahedronLoops::Block& block, const HexahedronState& state, Real* pressure,
+                  Real* sound_speed, HexahedronScratch& scratch, Scratch& own) const;
 
  private:
   /// Of the present compression: A, B, energy, and the sound speed that q is made of.
@@ -79,7 +79,7 @@ class SolidPressure {
                 Real* memory, HexahedronScratch& scratch, Scratch& own) const;
   /// Of element i of a block: its pressure, with the energy E before its own work; makes of the law's share
   /// the sound speed.
-  Real finish(Index i, Real E, Real mu, const Scratch& own, Real& sound_speed, Found& found) const;
+  Real finish(Index i, Real E, Real mu, const Scratch& own, Real& sound_speed, Faults& found) const;
   std::shared_ptr<const EosLaw> eos_;
   std::shared_ptr<const StrengthLaw> law_;
   HexahedronLoops loops_ = hexahedron_loops();

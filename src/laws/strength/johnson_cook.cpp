@@ -31,7 +31,7 @@ class JohnsonCook : public StrengthLaw {
   }
 
   void update(const PointBlock& block) const override {
-    Kept kept(block, a_);
+    BlockHistory kept(block, a_);
     PlasticTrial trial;
     go_elastically(a_.K - 2 * a_.G / 3, a_.G, block, FixedCentre{}, trial);
     for (Index i = 0; i < block.count; ++i) flow(block, i, kept, trial);
@@ -43,10 +43,10 @@ class JohnsonCook : public StrengthLaw {
 
  private:
   /// The history of a block; null where there is none.
-  struct Kept {
+  struct BlockHistory {
     Real *plastic, *heated = nullptr, *damage = nullptr, *spalled = nullptr;
     Real rate[block_size], warmth[block_size];  ///< of this step: rate of strain [1/T], T* [-]
-    Kept(const PointBlock& block, const JohnsonCookData& a) {
+    BlockHistory(const PointBlock& block, const JohnsonCookData& a) {
       std::size_t at = 0;
       plastic = block.history[at++];
       if (a.heat > 0) heated = block.history[at++];
@@ -56,7 +56,7 @@ class JohnsonCook : public StrengthLaw {
   };
 
   /// The increment of plastic strain of a point, and what follows from it.
-  void flow(const PointBlock& block, Index i, Kept& kept, PlasticTrial& trial) const {
+  void flow(const PointBlock& block, Index i, BlockHistory& kept, PlasticTrial& trial) const {
     const Real warmth = kept.heated ? std::min(kept.heated[i] / a_.melting, Real(1)) : 0;
     const Real cold = warmth > 0 ? 1 - std::pow(warmth, a_.M) : 1;
     const Real all = effective_rate(block, i, true), q = trial.q[i];
@@ -131,7 +131,7 @@ class JohnsonCook : public StrengthLaw {
     return 1 + u;
   }
 
-  void damage(const PointBlock& block, const Kept& kept, const PlasticTrial& trial) const {
+  void damage(const PointBlock& block, const BlockHistory& kept, const PlasticTrial& trial) const {
     const auto& s = block.stress;
     for (Index i = 0; i < block.count; ++i) {
       if (trial.plastic[i] > 0) kept.damage[i] += trial.plastic[i] / fracture(block, kept, trial, i);
@@ -140,7 +140,7 @@ class JohnsonCook : public StrengthLaw {
       for (std::size_t k = 0; k < 6; ++k) s[k][i] = k < 3 ? mean : 0;
     }
   }
-  Real fracture(const PointBlock& block, const Kept& kept, const PlasticTrial& trial, Index i) const {
+  Real fracture(const PointBlock& block, const BlockHistory& kept, const PlasticTrial& trial, Index i) const {
     const auto& s = block.stress;
     const Real mean = block.pressure ? -block.pressure[i] : (s[0][i] + s[1][i] + s[2][i]) / 3;
     const Real flow = std::max(trial.q[i] - 3 * a_.G * trial.plastic[i], std::numeric_limits<Real>::min());

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "laws/strength/spall.hpp"
+#include "laws/failure/spall.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {

@@ -11,9 +11,9 @@ namespace courant {
 namespace {
 
 /// What a trial step must leave as it was: stress and history of the points of a block.
-class Kept {
+class SavedPoints {
  public:
-  explicit Kept(const PointBlock& block) : block_(block) {
+  explicit SavedPoints(const PointBlock& block) : block_(block) {
     if (block.history.size() > most_history)
       throw std::logic_error("plane stress of a law with more than 16 history numbers");
     for (std::size_t k = 0; k < 6; ++k) std::copy_n(block.stress[k], block.count, stress_[k].data());
@@ -55,7 +55,7 @@ void StrengthLaw::update_in_plane_stress(const PointBlock& block, Real* rate_zz)
   PointBlock trial = block;
   trial.rate[2] = rate_zz;
   for (Index i = 0; i < block.count; ++i) rate_zz[i] = -share * (block.rate[0][i] + block.rate[1][i]);
-  const Kept kept(block);
+  const SavedPoints kept(block);
   Real* zz = block.stress[2];
   for (int k = 0;; ++k) {
     update(trial);
@@ -88,7 +88,7 @@ void update_in_beam(const StrengthLaw& law, const PointBlock& block, Real* rate_
   PointBlock trial = block;
   trial.rate[1] = trial.rate[2] = rate_yy, trial.rate[4] = none.data();
   for (Index i = 0; i < block.count; ++i) rate_yy[i] = -share * block.rate[0][i];
-  const Kept kept(block);
+  const SavedPoints kept(block);
   Real *yy = block.stress[1], *zz = block.stress[2];
   for (int k = 0;; ++k) {
     law.update(trial);

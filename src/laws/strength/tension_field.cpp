@@ -25,15 +25,15 @@ PlaneStress TensionField::without_compression(Real a, Real b, Real ab) const {
   const Real m = 0.5 * (a + b), p = 0.5 * (a - b);
   if (!(m + std::hypot(p, ab) > 0)) return {};
   // over x = 2 theta: strain e, 1/E = S; E e^2 is largest where 2 e' S - e S' falls through 0
-  struct Along {
+  struct StrainAt {
     Real e, de, S, dS;
     Real energy() const { return e > 0 ? e * e / S : 0; }
     Real slope() const { return 2 * de * S - e * dS; }
   };
   const auto along = [&](Real x) {
     const Real c = std::cos(x), n = std::sin(x);
-    return Along{m + p * c + ab * n, ab * c - p * n, mean_ + twice_ * c + four_ * (2 * c * c - 1),
-                 -n * (twice_ + 4 * four_ * c)};
+    return StrainAt{m + p * c + ab * n, ab * c - p * n, mean_ + twice_ * c + four_ * (2 * c * c - 1),
+                    -n * (twice_ + 4 * four_ * c)};
   };
   constexpr int parts = 24;
   constexpr Real part = 2 * pi / parts;
@@ -45,11 +45,11 @@ PlaneStress TensionField::without_compression(Real a, Real b, Real ab) const {
       x = longest + k * part, most = energy;
   Real low = x - part;
   const auto slope = [&](Real above) {
-    const Along at = along(low + above);
+    const StrainAt at = along(low + above);
     return at.e > 0 ? at.slope() : above < part ? 1 : -1;
   };
   if (slope(0) > 0 && slope(2 * part) <= 0) x = low + root_below(2 * part, slope);
-  const Along at = along(x);
+  const StrainAt at = along(x);
   const Real t = std::max(at.e, Real(0)) / at.S, c = std::cos(x), n = std::sin(x);
   return {0.5 * t * (1 + c), 0.5 * t * (1 - c), 0.5 * t * n};
 }

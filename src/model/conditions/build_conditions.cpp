@@ -156,7 +156,7 @@ bool has_rigid_bodies(const Deck& deck) {
 }  // namespace
 
 void ModelBuilder::build_constraints() {
-  struct Held {
+  struct HeldAxes {
     std::array<bool, 3> axes, turns;
   };
   // Where nodes do not turn, those of rigid bodies hold the body.
@@ -164,11 +164,12 @@ void ModelBuilder::build_constraints() {
   const auto held_by = [&](const BoundarySpcCard& card) {
     const std::array<bool, 3> none{}, turns = {card.dofrx == 1, card.dofry == 1, card.dofrz == 1};
     const int before = errors_;
-    Held out{held_directions(card, {card.dofx == 1, card.dofy == 1, card.dofz == 1}, "translations"), none};
+    HeldAxes out{held_directions(card, {card.dofx == 1, card.dofy == 1, card.dofz == 1}, "translations"),
+                 none};
     if (turn && turns != none && errors_ == before) out.turns = held_directions(card, turns, "rotations");
     return out;
   };
-  const auto hold = [&](Index n, const Held& held) {
+  const auto hold = [&](Index n, const HeldAxes& held) {
     auto& fixed = model_.nodes[static_cast<std::size_t>(n)].fixed;
     for (std::size_t k = 0; k < 3; ++k) fixed[k] = fixed[k] || held.axes[k];
     if (held.turns != std::array<bool, 3>{}) hold_rotations(n, held.turns);
@@ -177,7 +178,7 @@ void ModelBuilder::build_constraints() {
     if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, held_by(card));
   for (const auto& card : deck_.all<BoundarySpcSetCard>()) {
     const std::vector<Index>* members = node_set(card, "NSID", card.nid);
-    const Held held = held_by(card);
+    const HeldAxes held = held_by(card);
     if (!members) continue;
     for (const Index n : *members) hold(n, held);
   }

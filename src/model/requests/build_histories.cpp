@@ -1,6 +1,8 @@
 // What is written, when, and of whom.
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <unordered_set>
 
 #include "model/model_builder.hpp"
@@ -49,26 +51,26 @@ void ModelBuilder::check_interval(const Entry& card, std::string_view field, Rea
 
 void ModelBuilder::build_histories() {
   OutputRequests& out = model_.output;
-  OutputTimes* const times[] = {&out.glstat, &out.matsum, &out.rcforc, &out.sphout,  &out.sleout,
-                                &out.nodout, &out.rbdout, &out.bndout, &out.spcforc, &out.rwforc};
-  constexpr int sphout = 3, nodout = 5, bndout = 7;
   build_history_sph();
   build_history_node();
   for (const DatabaseAsciiCard& card : deck_.all<DatabaseAsciiCard>()) {
-    OutputTimes& one = *times[card.name];
-    one.interval = card.dt;
+    std::string name = deck_.keyword(card).substr(std::string_view("*DATABASE_").size());
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    OutputTimes& one = out.histories[name].times;
+    one.interval = card.dt, out.histories[name].binary = card.binary;
     build_output_curve(card, "LCUR", card.lcur, card.ioopt, one);
-    if (one.interval < 0 && card.name == bndout)
+    if (one.interval < 0 && name == "bndout")
       deck_.warning(diagnostics_, card, "DT", "an interval in cycles is not supported: bndout is not written",
                     "give an interval of time");
     else if (one.interval < 0)
       error(card, "DT", fmt::format("the interval is {:g}", one.interval), "it must not be negative");
     one.interval = std::max<Real>(one.interval, 0);
     check_interval(card, "DT", one.interval, most_due);
-    if (one.asked() && card.name == nodout && out.history_node.empty())
+    if (one.asked() && name == "nodout" && out.history_node.empty())
       deck_.warning(diagnostics_, card, "DT", "no node is named: nodout holds no values",
                     "name nodes by *DATABASE_HISTORY_NODE");
-    if (one.asked() && card.name == sphout && out.history_sph.empty())
+    if (one.asked() && name == "sphout" && out.history_sph.empty())
       deck_.warning(diagnostics_, card, "DT", "no particle is named: sphout holds no values",
                     "name particles by *DATABASE_HISTORY_SPH");
   }

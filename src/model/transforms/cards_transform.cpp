@@ -1,5 +1,5 @@
 // Tables of transformations.
-#include "keyword/number.hpp"
+#include "keyword/read/number.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 #include "model/transforms/transform_cards.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "keyword/include_card.hpp"
+#include "keyword/read/include_card.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 #include "model/transforms/transformation.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "keyword/number.hpp"
+#include "keyword/read/number.hpp"
 #include "keyword/source.hpp"
 #include "model/cards.hpp"
 

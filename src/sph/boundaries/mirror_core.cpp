@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "sph/core/fields.hpp"
-#include "sph/core/kernel.hpp"
 #include "sph/core/view.hpp"
+#include "sph/kernel/kernel.hpp"
 #include "sph/sph.hpp"
 #include "state/shared_fields.hpp"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sph/core/kernel.hpp"
 #include "sph/core/view.hpp"
+#include "sph/kernel/kernel.hpp"
 
 namespace courant {
 

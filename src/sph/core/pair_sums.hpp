@@ -1,8 +1,8 @@
 #pragma once
 // The loops over pairs for a kernel as a type, included by files *_loops.cpp, which are compiled once for
 // each instruction set; see docs/architecture.md.
-#include "sph/core/kernel_packs.hpp"
 #include "sph/core/pair_loops.hpp"
+#include "sph/kernel/kernel_packs.hpp"
 #include "sph/options/frozen_loops.hpp"
 
 namespace courant::COURANT_SIMD {

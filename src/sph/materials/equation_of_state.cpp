@@ -57,7 +57,7 @@ void EquationOfState::declare(const World& world, Accesses& a) const {
 }
 
 void EquationOfState::block(World& world, const Clock& clock, Index begin, Index end) {
-  Found& found = found_[begin / block_size] = {};
+  EosFaults& found = found_[begin / block_size] = {};
   if (same_for_all_) return advance(world.particles, clock.dt_old, begin, end, 0, found);
   const Index* part = world.particles.part.data();
   for (Index i = begin, next = i; i < end; i = next) {  // particles of one part in a row
@@ -68,7 +68,7 @@ void EquationOfState::block(World& world, const Clock& clock, Index begin, Index
 
 void EquationOfState::finish(World& world, const Clock& clock) {
   std::int64_t without_speed = 0;
-  for (const Found& found : found_) without_speed += found.without_speed;
+  for (const EosFaults& found : found_) without_speed += found.without_speed;
   if (without_speed > 0) world.counters["sound_speed_clamped"] += without_speed;
   for (std::size_t b = 0; b < found_.size(); ++b) {
     if (found_[b].lowest > 0) continue;
@@ -79,7 +79,8 @@ void EquationOfState::finish(World& world, const Clock& clock) {
   }
 }
 
-void EquationOfState::advance(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) const {
+void EquationOfState::advance(Particles& p, Real dt, Index begin, Index end, Index part,
+                              EosFaults& found) const {
   if (law_->uses_energy())
     advance_with_energy(p, dt, begin, end, part, found);
   else
@@ -87,7 +88,7 @@ void EquationOfState::advance(Particles& p, Real dt, Index begin, Index end, Ind
 }
 
 void EquationOfState::advance_with_energy(Particles& p, Real dt, Index begin, Index end, Index part,
-                                          Found& found) const {
+                                          EosFaults& found) const {
   const Real rho0 = parts_.rho0[part], pc = parts_.pc[part], limit = rho_limit(part);
   std::array<Real, block_size> mu, dv, A, dA, B, dB;
   for (Index i = begin; i < end; ++i) {
@@ -117,7 +118,7 @@ void EquationOfState::advance_with_energy(Particles& p, Real dt, Index begin, In
 }
 
 void EquationOfState::advance_without(Particles& p, Real dt, Index begin, Index end, Index part,
-                                      Found& found) const {
+                                      EosFaults& found) const {
   const Real rho0 = parts_.rho0[part];
   std::array<Real, block_size> mu, half_dv, A, dA;
   loops_.compress(p.drhodt.data(), dt, rho0, p.rho.data(), mu.data(), half_dv.data(), begin, end);

@@ -38,7 +38,7 @@ class EquationOfState : public Material {
 
  private:
   /// In a block of particles.
-  struct Found {
+  struct EosFaults {
     Real lowest = 1;          ///< rho/rho0; 0 where the law does not hold
     Index without_speed = 0;  ///< particles with c^2 < 0, whose c was set to 0
   };
@@ -46,10 +46,10 @@ class EquationOfState : public Material {
   Real rho_limit(Index part) const { return parts_.rho0[part] * (1 + mu_limit_); }
   /// Also false where the density is not a number.
   bool holds(const Particles& p, Index i) const { return p.rho[i] > 0 && p.rho[i] < rho_limit(p.part[i]); }
-  void advance(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) const;
-  void advance_with_energy(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) const;
+  void advance(Particles& p, Real dt, Index begin, Index end, Index part, EosFaults& found) const;
+  void advance_with_energy(Particles& p, Real dt, Index begin, Index end, Index part, EosFaults& found) const;
   /// The same with B = 0, in a form that vectorises: E only counts the work of the pressure.
-  void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, Found& found) const;
+  void advance_without(Particles& p, Real dt, Index begin, Index end, Index part, EosFaults& found) const;
 
   Real* memory(Index begin) const { return memory_ ? memory_->data() + begin : nullptr; }
 
@@ -60,7 +60,7 @@ class EquationOfState : public Material {
   Field<Real>& reference_volume_;
   Field<Real>* memory_ = nullptr;  ///< null: the law has none
   Real mu_limit_;
-  std::vector<Found> found_;
+  std::vector<EosFaults> found_;
   bool same_for_all_ = false;  ///< every particle is mine, with one rho0 and one pc
 };
 

@@ -17,10 +17,10 @@ namespace courant {
 namespace {
 
 /// Materials that SPH parts may have, by their ids.
-struct Known {
+struct ParticleMaterials {
   std::map<Id, const MatNull*> fluids;
   std::map<Id, std::shared_ptr<StrengthLaw>> strengths;
-  Known(const Deck& deck, const Model& model) {
+  ParticleMaterials(const Deck& deck, const Model& model) {
     for (const MatNull& m : deck.all<MatNull>()) fluids.emplace(m.mid, &m);
     for (const StrengthEntry& kind : strength_registry())
       for (const auto& [id, law] : kind.all(deck, model)) strengths.emplace(id, law);
@@ -28,7 +28,8 @@ struct Known {
 };
 
 /// Cards that the tables of their keywords cannot judge; those of strength only where particles have it.
-void check_cards(const Deck& deck, const Model& model, const Known& known, Diagnostics& diagnostics) {
+void check_cards(const Deck& deck, const Model& model, const ParticleMaterials& known,
+                 Diagnostics& diagnostics) {
   for (const EosEntry& kind : eos_registry()) kind.check(deck, model, diagnostics);
   const bool strong = std::any_of(model.parts.begin(), model.parts.end(), [&](const ModelPart& part) {
     return part.has_sph && known.strengths.count(part.mid) > 0;
@@ -78,7 +79,7 @@ SphMaterial PartMaterial::for_particles() const {
 }
 
 std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
-  const Known known(deck, model);
+  const ParticleMaterials known(deck, model);
   check_cards(deck, model, known, diagnostics);
   PartEos laws(deck, model);
   std::vector<PartMaterial> out(model.parts.size());

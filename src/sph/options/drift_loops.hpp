@@ -1,8 +1,8 @@
 #pragma once
 // The sums over pairs by which particles move besides their velocity (shifting, XSPH); compiled once for each
 // instruction set, as pair_loops.hpp.
-#include "sph/core/kernel_choice.hpp"
 #include "sph/core/neighbour_lists.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 
 namespace courant {
 

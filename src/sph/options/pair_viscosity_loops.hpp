@@ -1,7 +1,7 @@
 #pragma once
 // Viscosity between pairs; compiled once for each instruction set, as pair_loops.hpp.
-#include "sph/core/kernel_choice.hpp"
 #include "sph/core/neighbour_lists.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 
 namespace courant {
 

@@ -1,8 +1,8 @@
 #pragma once
 // The sums over pairs of renormalised forms: gradients corrected by the inverse of the moment matrix;
 // compiled once for each instruction set, as pair_loops.hpp.
-#include "sph/core/kernel_choice.hpp"
 #include "sph/core/neighbour_lists.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 
 namespace courant {
 

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see docs/architecture.md.
 #include "sph/options/riemann_loops.hpp"
 
-#include "sph/core/kernel_packs.hpp"
+#include "sph/kernel/kernel_packs.hpp"
 
 namespace courant::COURANT_SIMD {
 

@@ -1,8 +1,8 @@
 #pragma once
 // The sums over pairs by which a Riemann flux differs from plain sums; compiled once for each instruction
 // set, as pair_loops.hpp. Where h differs, gradients are the means of those with h_i and with h_j.
-#include "sph/core/kernel_choice.hpp"
 #include "sph/core/neighbour_lists.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 
 namespace courant {
 

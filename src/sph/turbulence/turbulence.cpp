@@ -8,12 +8,12 @@
 
 #include "base/eigenvalues.hpp"
 #include "parallel/parallel.hpp"
-#include "sph/boundaries/wall_distance.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/core/pair_volumes.hpp"
 #include "sph/core/view.hpp"
 #include "sph/sph.hpp"
 #include "sph/turbulence/turbulence_loops.hpp"
+#include "sph/walls/wall_distance.hpp"
 
 namespace courant {
 

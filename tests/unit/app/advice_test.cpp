@@ -1,8 +1,8 @@
-#include "app/advice.hpp"
+#include "app/check/advice.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/range_warnings.hpp"
+#include "app/report/range_warnings.hpp"
 
 namespace courant {
 namespace {

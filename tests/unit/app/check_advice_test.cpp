@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../text.hpp"
-#include "app/check.hpp"
+#include "app/check/check.hpp"
 #include "small_scene.hpp"
 
 namespace courant {

@@ -5,7 +5,7 @@
 
 #include "../keyword/decks_in_memory.hpp"
 #include "../text.hpp"
-#include "app/check.hpp"
+#include "app/check/check.hpp"
 
 namespace courant {
 

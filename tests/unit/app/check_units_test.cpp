@@ -1,7 +1,7 @@
 // Which system of units the numbers of a deck look like.
 #include <gtest/gtest.h>
 
-#include "app/check.hpp"
+#include "app/check/check.hpp"
 
 namespace courant {
 

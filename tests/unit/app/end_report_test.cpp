@@ -1,4 +1,4 @@
-#include "app/end_report.hpp"
+#include "app/report/end_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include "../../generate_deck.hpp"
 #include "parallel/parallel.hpp"
 #include "small_scene.hpp"
-#include "sph/boundaries/injection.hpp"
+#include "sph/inlets/injection.hpp"
 
 namespace courant {
 namespace {

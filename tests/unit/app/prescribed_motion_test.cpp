@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "../../generate_deck.hpp"
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <set>
 
-#include "app/restart.hpp"
+#include "app/run/restart.hpp"
 #include "base/restart_error.hpp"
 #include "parallel/parallel.hpp"
 #include "small_scene.hpp"

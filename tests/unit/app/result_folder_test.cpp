@@ -1,5 +1,5 @@
 // What a run may find in its folder.
-#include "app/result_folder.hpp"
+#include "app/run/result_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "../temporary_folder.hpp"
-#include "app/relaxation.hpp"
+#include "app/run/relaxation.hpp"
 #include "output/file.hpp"
 
 namespace courant {

@@ -1,4 +1,4 @@
-#include "app/sense_switches.hpp"
+#include "app/run/sense_switches.hpp"
 
 #include <gtest/gtest.h>
 

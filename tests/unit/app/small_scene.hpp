@@ -7,7 +7,7 @@
 #include <string>
 
 #include "../keyword/decks_in_memory.hpp"
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 
 namespace courant::test {
 

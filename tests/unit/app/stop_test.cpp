@@ -1,5 +1,5 @@
 // Runs that must not go on: each stops with a message that names its cause, in time.
-#include "app/advice.hpp"
+#include "app/check/advice.hpp"
 #include "small_scene.hpp"
 #include "time/guard.hpp"
 

@@ -1,5 +1,5 @@
 // Whether a run can be trusted: limits, the scale of energies, and scenes that were judged wrongly.
-#include "app/verdict.hpp"
+#include "app/report/verdict.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // Contact and a free rigid plate together.
 #include <gtest/gtest.h>
 
-#include "rigid/rigid.hpp"
+#include "rigid/bodies/rigid.hpp"
 #include "scene.hpp"
 
 using namespace courant;

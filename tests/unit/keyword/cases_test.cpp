@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "keyword/cases.hpp"
+#include "keyword/read/cases.hpp"
 
 using namespace courant;
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "keyword/families.hpp"
-#include "keyword/law_names.hpp"
+#include "keyword/help/families.hpp"
+#include "keyword/help/law_names.hpp"
 #include "keyword/registry.hpp"
 
 namespace courant {

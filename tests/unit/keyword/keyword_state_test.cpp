@@ -1,5 +1,5 @@
 // What is said of a keyword's support follows from its table, and the reader does what is said.
-#include "keyword/keyword_state.hpp"
+#include "keyword/help/keyword_state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "keyword/number.hpp"
+#include "keyword/read/number.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 

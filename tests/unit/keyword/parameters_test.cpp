@@ -1,5 +1,5 @@
 // Parameters of a deck: what they are worth where, and what `courant check` can tell of them.
-#include "keyword/parameters.hpp"
+#include "keyword/read/parameters.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 
 namespace courant {
 

@@ -1,5 +1,5 @@
 // The quick way through tables must say and store what the careful one does.
-#include "keyword/table_lines.hpp"
+#include "keyword/read/table_lines.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "decks_in_memory.hpp"
-#include "keyword/number.hpp"
+#include "keyword/read/number.hpp"
 #include "keyword/registry.hpp"
 #include "model/cards.hpp"
 

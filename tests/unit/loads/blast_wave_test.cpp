@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "loads/blast_cards.hpp"
-#include "loads/blast_wave.hpp"
+#include "loads/blast/blast_cards.hpp"
+#include "loads/blast/blast_wave.hpp"
 
 using namespace courant;
 

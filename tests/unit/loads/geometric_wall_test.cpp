@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "loads/wall_shape.hpp"
+#include "loads/walls/wall_shape.hpp"
 #include "wall_scene.hpp"
 
 using namespace courant;

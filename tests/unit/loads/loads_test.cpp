@@ -217,7 +217,7 @@ TEST(PrescribedPoints, DriveParticlesAndNodes) {
   Scene s;
   Deck deck;
   Diagnostics diagnostics;
-  s.model.output.bndout.interval = 1;
+  s.model.output.histories["bndout"].times.interval = 1;
   PrescribedMotion motion{.direction = Vec::UnitX(),
                           .curve = {.abscissa = {0, 1}, .ordinate = {0, 2}},
                           .nodes = {0, 2},

@@ -80,9 +80,9 @@ TEST_P(AcceptDeck, GivesControlAndOutput) {
   EXPECT_FALSE(m.dt_max_given);
   EXPECT_EQ(m.output.d3plot_count, 5);
   EXPECT_EQ(m.output.d3plot.interval, 0.5);
-  EXPECT_EQ(m.output.glstat.interval, 0.01);
+  EXPECT_EQ(m.output.history("glstat").interval, 0.01);
   EXPECT_EQ(m.output.sphout.interval, 0.02);
-  EXPECT_EQ(m.output.rcforc.interval, 0);
+  EXPECT_EQ(m.output.history("rcforc").interval, 0);
   EXPECT_EQ(m.output.history_sph, std::vector<Id>{5});
 }
 

@@ -7,13 +7,13 @@
 #include <functional>
 
 #include "../keyword/decks_in_memory.hpp"
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 #include "contact/cards.hpp"
 #include "model/build_model.hpp"
 #include "model/cards.hpp"
 #include "model/sets/set_cards.hpp"
 #include "model/transforms/included_entries.hpp"
-#include "rigid/mat_rigid.hpp"
+#include "rigid/bodies/mat_rigid.hpp"
 #include "sph/cards.hpp"
 #include "transformed_scene.hpp"
 
@@ -123,7 +123,7 @@ void expect_same_definitions(const Model& a, const Model& b) {
       expect_near(a.body_loads[i].sf * a.body_loads[i].curve(t),
                   b.body_loads[i].sf * b.body_loads[i].curve(t), "load");
   EXPECT_EQ(a.output.history_sph, b.output.history_sph);
-  expect_near(a.output.glstat.interval, b.output.glstat.interval, "glstat");
+  expect_near(a.output.history("glstat").interval, b.output.history("glstat").interval, "glstat");
   expect_near(a.endtim, b.endtim, "endtim");
 }
 

@@ -1,4 +1,4 @@
-#include "output/ascii.hpp"
+#include "output/ascii/ascii.hpp"
 
 #include <yaml-cpp/yaml.h>
 
@@ -63,12 +63,12 @@ TEST(Glstat, LayoutAndMeaning) {
       " global z velocity..............   0.00000E+00\n"
       " time per zone cycle.(nanosec)..           100\n";
   EXPECT_EQ(made_sample().energy.residual(), 0);
-  EXPECT_EQ(glstat_text(made_sample(), 4), expected);
+  EXPECT_EQ(history_text("glstat", made_sample(), 4), expected);
 }
 
 TEST(Matsum, Layout) {
   EXPECT_EQ(
-      matsum_text(made_sample()),
+      history_text("matsum", made_sample()),
       "\n\n time =   2.0000E-02\n"
       " mat.#=    1             inten=   2.0000E+01     kinen=   1.0000E+02     eroded_ie=   0.0000E+00     "
       "eroded_ke=   "
@@ -79,7 +79,7 @@ TEST(Matsum, Layout) {
 }
 
 TEST(Rcforc, LayoutAndOppositeSides) {
-  EXPECT_EQ(rcforc_text(made_sample()),
+  EXPECT_EQ(history_text("rcforc", made_sample()),
             "  SURFA           4 time 2.00000E-02  x  0.00000E+00  y  1.96200E+02  z  0.00000E+00 mass  "
             "0.00000E+00\n"
             "  SURFB           4 time 2.00000E-02  x  0.00000E+00  y -1.96200E+02  z  0.00000E+00 mass  "
@@ -93,7 +93,7 @@ TEST(Sphout, StressOfPressureAndViscosity) {
   s.particles[0].h = 0.006;
   s.particles[0].neighbours = 20;
   s.particles[0].tau = {1, -1, 0, 2, 0, 0};
-  const std::string text = sphout_text(s);
+  const std::string text = history_text("sphout", s);
   for (const char* line :
        {"\n\n\n S P H   o u t p u t       at time 2.0000E-02     for  time  step      8001\n",
         "      17     3 -1.2335E+03 -1.2355E+03 -1.2345E+03  2.0000E+00  0.0000E+00  0.0000E+00\n",
@@ -106,7 +106,7 @@ TEST(Sleout, SumIsTheSlidingEnergy) {
   Sample s = made_sample();
   s.interfaces[0].energy_stored = 3;
   s.interfaces[0].energy_friction = 0.5;
-  EXPECT_EQ(sleout_text(s),
+  EXPECT_EQ(history_text("sleout", s),
             "\n\n\n contact interface energy file, time= 2.0000000E-02\n"
             "    #             surfa       surfb        cycle=          8001    frictional\n\n"
             "         4   5.5000E+00   0.0000E+00                              5.0000E-01\n"
@@ -123,10 +123,10 @@ TEST(Nodout, RotationsOnlyWhereSomethingTurns) {
   const std::string row =
       "        7   1.0000E+00  0.0000E+00  0.0000E+00  0.0000E+00 -3.0000E+00  0.0000E+00  0.0000E+00"
       "  0.0000E+00  4.0000E+00  2.0000E+00  0.0000E+00  0.0000E+00\n";
-  EXPECT_NE(nodout_text(s).find(row), std::string::npos) << nodout_text(s);
-  EXPECT_EQ(nodout_text(s).find("x-rot"), std::string::npos);
+  EXPECT_NE(history_text("nodout", s).find(row), std::string::npos) << history_text("nodout", s);
+  EXPECT_EQ(history_text("nodout", s).find("x-rot"), std::string::npos);
   s.nodes[0].turns = true;
-  EXPECT_NE(nodout_text(s).find("x-rot"), std::string::npos);
+  EXPECT_NE(history_text("nodout", s).find("x-rot"), std::string::npos);
 }
 
 TEST(AsciiHeader, LegendAndTitle) {
@@ -136,6 +136,12 @@ TEST(AsciiHeader, LegendAndTitle) {
   const std::string header = ascii_header("channel", "11/21/2026");
   EXPECT_EQ(header.substr(0, 74), " channel" + std::string(65, ' ') + "\n");
   EXPECT_NE(header.find("date 11/21/2026\n"), std::string::npos);
+}
+
+HistoryRequests asked(const std::vector<std::pair<std::string, Real>>& intervals, const std::string& title) {
+  HistoryRequests out{.title = title};
+  for (const auto& [name, interval] : intervals) out.ask(name, interval);
+  return out;
 }
 
 TEST(Histories, OfAnEarlierRunDoNotStayBehind) {
@@ -148,9 +154,9 @@ TEST(Histories, OfAnEarlierRunDoNotStayBehind) {
     histories.finish();
   };
   write_file(dir / "matsum", " theirs\n                         ls-dyna\n");
-  run({.glstat = 0.25, .rcforc = 0.5, .title = "first"});
+  run(asked({{"glstat", 0.25}, {"rcforc", 0.5}}, "first"));
   EXPECT_TRUE(std::filesystem::exists(dir / "rcforc"));
-  run({.glstat = 0.25, .title = "second"});
+  run(asked({{"glstat", 0.25}}, "second"));
   EXPECT_FALSE(std::filesystem::exists(dir / "rcforc")) << "it would pass for one of the second run";
   EXPECT_TRUE(std::filesystem::exists(dir / "glstat"));
   EXPECT_TRUE(std::filesystem::exists(dir / "matsum")) << "others' files are theirs";
@@ -158,7 +164,7 @@ TEST(Histories, OfAnEarlierRunDoNotStayBehind) {
 
 TEST(Histories, EachFileAtItsOwnInterval) {
   ScratchFolder dir;
-  Histories histories(dir.path(), {.glstat = 0.25, .rcforc = 0.5, .title = "channel"});
+  Histories histories(dir.path(), asked({{"glstat", 0.25}, {"rcforc", 0.5}}, "channel"));
   int asked = 0;
   const Real dt = 0.0625;
   for (int n = 0; n < 17; ++n) {
@@ -179,7 +185,7 @@ TEST(Histories, EachFileAtItsOwnInterval) {
 
 TEST(Histories, TakenSamplesCanBeWrittenLater) {
   ScratchFolder dir;
-  Histories histories(dir.path(), {.glstat = 0.25, .rcforc = 0.5, .title = "channel"});
+  Histories histories(dir.path(), asked({{"glstat", 0.25}, {"rcforc", 0.5}}, "channel"));
   std::vector<std::pair<Sample, Histories::Due>> waiting;
   for (int n = 0; n < 9; ++n) {
     Sample s = made_sample();

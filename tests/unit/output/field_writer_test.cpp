@@ -1,4 +1,4 @@
-#include "output/field_writer.hpp"
+#include "output/fields/field_writer.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

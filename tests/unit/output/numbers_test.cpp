@@ -5,7 +5,7 @@
 #include <cmath>
 #include <regex>
 
-#include "output/ascii.hpp"
+#include "output/ascii/ascii.hpp"
 #include "output/history.hpp"
 #include "output_test.hpp"
 
@@ -121,30 +121,32 @@ TEST(NumbersOfHistories, OfPartsContactsAndWallsStandInTheirPlaces) {
   }
   sleout.add(Row(total, 0.0, total, friction));
   for (const RigidWallForce& w : s.rigid_walls) rwforc.add(Row(s.t, w.normal, w.force));
-  expect_numbers(matsum_text(s), matsum);
-  expect_numbers(rcforc_text(s), rcforc);
-  expect_numbers(sleout_text(s), sleout);
-  expect_numbers(rwforc_text(s), rwforc);
+  expect_numbers(history_text("matsum", s), matsum);
+  expect_numbers(history_text("rcforc", s), rcforc);
+  expect_numbers(history_text("sleout", s), sleout);
+  expect_numbers(history_text("rwforc", s), rwforc);
 }
 
 TEST(NumbersOfHistories, OfNodesBodiesAndBoundariesStandInTheirPlaces) {
   using Kind = BoundaryForce::Kind;
   const Sample s = sample_of_all();
   const NodeSample& n = s.nodes[0];
-  expect_numbers(nodout_text(s),
+  expect_numbers(history_text("nodout", s),
                  Row(s.t, n.displacement, n.v, n.a, n.x, s.t, n.rotation, n.omega, n.angular_a));
   const RigidBodyMotion& b = s.body_motions[0];
   const auto rows = [&](const Matrix& L) {
     return Row(Vec(L * b.displacement), Vec(L * b.rotation), Vec(L * b.v), Vec(L * b.omega), Vec(L * b.a),
                Vec(L * b.angular_a));
   };
-  expect_numbers(rbdout_text(s), Row(s.t, b.x, rows(Matrix::Identity()), Vec(b.axes.row(0)),
-                                     Vec(b.axes.row(1)), Vec(b.axes.row(2)), rows(b.axes.transpose())));
+  expect_numbers(history_text("rbdout", s),
+                 Row(s.t, b.x, rows(Matrix::Identity()), Vec(b.axes.row(0)), Vec(b.axes.row(1)),
+                     Vec(b.axes.row(2)), rows(b.axes.transpose())));
   const BoundaryForce &point = of_kind(s, Kind::driven_point), &body = of_kind(s, Kind::driven_body),
                       &held = of_kind(s, Kind::held_point), &turn = of_kind(s, Kind::held_rotation);
-  expect_numbers(bndout_text(s), Row(s.t, point.force, point.work, body.force, body.work, body.moment,
-                                     Vec(point.force + body.force), point.work + body.work));
-  expect_numbers(spcforc_text(s), Row(s.t, held.force, turn.moment, Vec(held.force + turn.force)));
+  expect_numbers(history_text("bndout", s),
+                 Row(s.t, point.force, point.work, body.force, body.work, body.moment,
+                     Vec(point.force + body.force), point.work + body.work));
+  expect_numbers(history_text("spcforc", s), Row(s.t, held.force, turn.moment, Vec(held.force + turn.force)));
 }
 
 TEST(NumbersOfHistories, OfParticlesStandInTheirPlaces) {
@@ -153,8 +155,8 @@ TEST(NumbersOfHistories, OfParticlesStandInTheirPlaces) {
   const auto& t = p.tau;
   const Real mises = std::sqrt(1.5 * (t[0] * t[0] + t[1] * t[1] + t[2] * t[2]) +
                                3 * (t[3] * t[3] + t[4] * t[4] + t[5] * t[5]));
-  expect_numbers(sphout_text(s), Row(s.t, t[0] - p.p, t[1] - p.p, t[2] - p.p, t[3], t[4], t[5], Vec(0, 0, 0),
-                                     Vec(0, 0, 0), p.rho, p.h, 0.0, mises));
+  expect_numbers(history_text("sphout", s), Row(s.t, t[0] - p.p, t[1] - p.p, t[2] - p.p, t[3], t[4], t[5],
+                                                Vec(0, 0, 0), Vec(0, 0, 0), p.rho, p.h, 0.0, mises));
 }
 
 // The balance as LS-DYNA has it: potential energy as external work, what contact and walls took apart, energy
@@ -171,7 +173,7 @@ TEST(NumbersOfHistories, OfTheWholeModelAddUp) {
              work = e.external_work + first - e.potential, total = e.total() - e.potential,
              expected = e.initial - first + work;
   expect_numbers(
-      glstat_text(s, first),
+      history_text("glstat", s, first),
       Row(s.t, s.dt, e.kinetic, e.internal + e.bulk_viscosity + e.dissipated - contact - walls - eroded,
           e.hourglass, s.rigid_walls[0].dissipated, s.rigid_walls[1].dissipated, 0.0, e.discrete, 0.0,
           e.contact + contact, work, 0.0, eroded_internal, eroded_hourglass, total, total / expected,

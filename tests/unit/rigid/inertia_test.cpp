@@ -1,5 +1,5 @@
 // Inertia of bodies of constant density against closed forms.
-#include "rigid/inertia.hpp"
+#include "rigid/bodies/inertia.hpp"
 
 #include <gtest/gtest.h>
 

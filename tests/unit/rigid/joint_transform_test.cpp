@@ -5,7 +5,7 @@
 
 #include "../keyword/decks_in_memory.hpp"
 #include "model/transforms/included_entries.hpp"
-#include "rigid/joint_cards.hpp"
+#include "rigid/joints/joint_cards.hpp"
 
 namespace courant {
 namespace {

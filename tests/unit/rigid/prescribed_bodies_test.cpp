@@ -1,7 +1,7 @@
 // What drives of rigid bodies do of work, against the balance of each body.
 #include <gtest/gtest.h>
 
-#include "rigid/rigid.hpp"
+#include "rigid/bodies/rigid.hpp"
 
 using namespace courant;
 

@@ -1,12 +1,12 @@
-#include "rigid/rigid.hpp"
+#include "rigid/bodies/rigid.hpp"
 #include "elements/build_nodes.hpp"
 
 #include <gtest/gtest.h>
 
+#include "elements/shell_faces/section_shell.hpp"
+#include "elements/shell_faces/shell_faces.hpp"
 #include "parallel/parallel.hpp"
-#include "rigid/mat_rigid.hpp"
-#include "shell/section_shell.hpp"
-#include "shell/shell.hpp"
+#include "rigid/bodies/mat_rigid.hpp"
 
 using namespace courant;
 

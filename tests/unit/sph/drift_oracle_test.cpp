@@ -6,7 +6,7 @@
 #include "base/instruction_set.hpp"
 #include "cloud.hpp"
 #include "sph/core/fields.hpp"
-#include "sph/core/kernel.hpp"
+#include "sph/kernel/kernel.hpp"
 #include "sph/options/drift.hpp"
 
 using namespace courant;

@@ -2,7 +2,7 @@
 // The cards that choose a kernel, for tests that run scenes with each of them.
 #include <string>
 
-#include "sph/core/kernel_choice.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 
 namespace courant::test {
 

@@ -1,11 +1,11 @@
-#include "sph/core/kernel.hpp"
+#include "sph/kernel/kernel.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <type_traits>
 
-#include "sph/core/kernel_choice.hpp"
+#include "sph/kernel/kernel_choice.hpp"
 
 using namespace courant;
 

@@ -5,7 +5,7 @@
 #include "cloud.hpp"
 #include "parallel/parallel.hpp"
 #include "sph/core/fields.hpp"
-#include "sph/core/kernel.hpp"
+#include "sph/kernel/kernel.hpp"
 
 using namespace courant;
 using courant::test::Cloud;

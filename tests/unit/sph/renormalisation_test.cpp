@@ -12,7 +12,7 @@
 #include "cloud.hpp"
 #include "laws/strength/strength.hpp"
 #include "sph/core/fields.hpp"
-#include "sph/core/kernel.hpp"
+#include "sph/kernel/kernel.hpp"
 
 namespace courant {
 namespace {

@@ -9,7 +9,7 @@
 #include "checkerboard_tank.hpp"
 #include "cloud.hpp"
 #include "sph/core/fields.hpp"
-#include "sph/core/kernel.hpp"
+#include "sph/kernel/kernel.hpp"
 
 namespace courant {
 namespace {

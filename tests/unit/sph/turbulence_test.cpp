@@ -10,12 +10,12 @@
 
 #include <fmt/format.h>
 
-#include "../../verification/same_bits.hpp"
+#include "../../verification/run/same_bits.hpp"
 #include "../app/small_scene.hpp"
 #include "shear_layer.hpp"
-#include "sph/boundaries/wall_distance.hpp"
-#include "sph/boundaries/wall_law.hpp"
 #include "sph/core/fields.hpp"
+#include "sph/walls/wall_distance.hpp"
+#include "sph/walls/wall_law.hpp"
 
 namespace courant {
 namespace {

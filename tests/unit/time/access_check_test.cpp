@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "app/simulation.hpp"
+#include "app/run/simulation.hpp"
 #include "base/run_error.hpp"
 
 using namespace courant;

@@ -1,0 +1,61 @@
+#include "app/run/state_files.hpp"
+
+#include <fmt/format.h>
+
+#include "app/run/field_options.hpp"
+
+namespace courant {
+namespace {
+
+D3plotModel* d3plot_of(World& world) {
+  const auto found = world.passes.all<D3plotModel>();
+  return found.empty() ? nullptr : found.front();
+}
+
+}  // namespace
+
+StateFiles::StateFiles(const std::filesystem::path& dir, Simulation& simulation)
+    : dir_(dir),
+      model_(d3plot_of(simulation.world())),
+      vtk_(dir, field_options(simulation.model(), simulation.sph().hide_inactive)) {
+  if (model_)
+    d3plot_.emplace(dir, model_->extent().bits, model_->state_bytes(simulation.world()), model_->most_bytes);
+}
+
+StateFiles::State StateFiles::take(World& world, const Clock& clock, int number) {
+  State out{number};
+  if (with_vtk()) out.vtk = vtk_.take(world, clock.t, number);
+  if (!model_) return out;
+  if (!has_head_) out.d3plot_head = model_->head(world);
+  has_head_ = true;
+  out.d3plot = model_->state(world, clock);
+  return out;
+}
+
+void StateFiles::write(State state) {
+  ++states_;
+  if (state.vtk) vtk_.write(std::move(*state.vtk));
+  if (!d3plot_) return;
+  if (first_ < 0) d3plot_->begin(state.d3plot_head), first_ = state.number;
+  d3plot_->write(state.number - first_, state.d3plot);
+}
+
+void StateFiles::keep(Archive& archive) {
+  vtk_.keep(archive);
+  const Archive::Group inside(archive, "d3plot");
+  std::int64_t state_bytes = d3plot_ ? static_cast<std::int64_t>(d3plot_->state_bytes()) : 0;
+  const std::int64_t now = state_bytes;
+  archive("first", first_);
+  archive("states", states_);
+  archive("state_bytes", state_bytes);
+  if (archive.loading() && d3plot_ && first_ >= 0 && state_bytes != now)
+    throw OutputError(dir_ / "d3plot",
+                      fmt::format("its states have {} bytes, those of this deck {}", state_bytes, now));
+}
+
+void StateFiles::cut(int number) {
+  if (with_vtk()) vtk_.cut(number);
+  if (d3plot_ && first_ >= 0) d3plot_->cut(number - first_);
+}
+
+}  // namespace courant

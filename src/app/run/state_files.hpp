@@ -1,0 +1,46 @@
+#pragma once
+// The files of states that a deck asks for: VTK's, d3plot, or both.
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/run/simulation.hpp"
+#include "d3plot/d3plot_model.hpp"
+#include "d3plot/family.hpp"
+#include "output/fields/field_writer.hpp"
+
+namespace courant {
+
+/// Members named as of FieldWriter do the same for all kinds; `take` is for the thread of the time loop, what
+/// writes is for the one that writes.
+class StateFiles {
+ public:
+  /// Throws OutputError.
+  StateFiles(const std::filesystem::path& dir, Simulation& simulation);
+
+  struct State {
+    int number = 0;
+    std::optional<FieldState> vtk{};
+    std::string d3plot_head{}, d3plot{};
+  };
+  bool with_vtk() const { return !model_ || model_->beside_vtk; }
+  State take(World& world, const Clock& clock, int number);
+  void write(State state);
+  void write_failed(const World& world, Real t) { vtk_.write_failed(world, t); }
+  void keep(Archive& archive);
+  void cut(int number);
+  void finish() { vtk_.finish(); }
+  int states() const { return states_; }
+  std::int64_t bytes() const { return vtk_.bytes() + (d3plot_ ? d3plot_->bytes() : 0); }
+
+ private:
+  std::filesystem::path dir_;
+  D3plotModel* model_;  ///< null: no d3plot
+  FieldWriter vtk_;
+  std::optional<D3plotFamily> d3plot_;
+  bool has_head_ = false;
+  int first_ = -1;  ///< number of the first state of the family; -1: it has none
+  int states_ = 0;
+};
+
+}  // namespace courant

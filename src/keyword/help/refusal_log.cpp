@@ -1,0 +1,20 @@
+#include "keyword/help/refusal_log.hpp"
+
+#include <fmt/format.h>
+
+namespace courant {
+
+bool RefusalLog::is_first(const std::string& name, const Diagnostics& diagnostics) {
+  const auto [it, is_new] = told_.try_emplace(name, RefusalCount{.message = diagnostics.all().size()});
+  if (!is_new) ++it->second.more;
+  return is_new;
+}
+
+void RefusalLog::close(Diagnostics& diagnostics) const {
+  for (const auto& [name, told] : told_)
+    if (told.more > 0)
+      diagnostics.amend(told.message,
+                        fmt::format(" (here and in {} more place{})", told.more, told.more == 1 ? "" : "s"));
+}
+
+}  // namespace courant

@@ -1,0 +1,72 @@
+#include "laws/failure/thinning_failure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace courant {
+
+namespace {
+
+/// Keeps the strain beside what the law keeps, and how near it is to failure: 1.
+class ThinningFailure : public StrengthLaw {
+ public:
+  ThinningFailure(std::shared_ptr<StrengthLaw> of, const ThinningLimits& limits)
+      : of_(std::move(of)), limits_(limits) {
+    ro = of_->ro;
+    for (const HistoryVariable& h : of_->history()) kept_ += static_cast<std::size_t>(h.components);
+  }
+  Real bulk_modulus() const override { return of_->bulk_modulus(); }
+  Real shear_modulus() const override { return of_->shear_modulus(); }
+  std::vector<HistoryVariable> history() const override {
+    auto out = of_->history();
+    out.push_back({"strain", "-", 6});
+    out.push_back({"failure_ratio", "-"});
+    return out;
+  }
+  Real failure_limit() const override { return 1; }
+  std::string failure_variable() const override { return "failure_ratio"; }
+
+  /// In solids thickness has no meaning: only the law's own limit counts.
+  void update(const PointBlock& block) const override {
+    of_->update(of_law(block));
+    for (Index i = 0; i < block.count; ++i) raise(block, i, plastic_share(block, i));
+  }
+  void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
+    of_->update_in_plane_stress(of_law(block), rate_zz);
+    if (!(block.dt > 0)) return;
+    for (Index i = 0; i < block.count; ++i) {
+      Real* const* strain = block.history.data() + kept_;
+      for (std::size_t k = 0; k < 6; ++k) strain[k][i] += block.dt * (k == 2 ? rate_zz[i] : block.rate[k][i]);
+      const Real xx = strain[0][i], yy = strain[1][i], xy = strain[3][i];
+      const Real major = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+      raise(block, i,
+            std::max({plastic_share(block, i), -strain[2][i] / limits_.thinning, major / limits_.major}));
+    }
+  }
+
+ private:
+  PointBlock of_law(const PointBlock& block) const {
+    PointBlock out = block;
+    out.history = block.history.first(kept_);
+    return out;
+  }
+  Real plastic_share(const PointBlock& block, Index i) const {
+    return block.history[0][i] / of_->failure_limit();
+  }
+  void raise(const PointBlock& block, Index i, Real ratio) const {
+    Real& kept = block.history[kept_ + 6][i];
+    kept = std::max(kept, ratio);
+  }
+
+  std::shared_ptr<StrengthLaw> of_;
+  ThinningLimits limits_;
+  std::size_t kept_ = 0;
+};
+
+}  // namespace
+
+std::shared_ptr<StrengthLaw> fail_by_thinning(std::shared_ptr<StrengthLaw> of, const ThinningLimits& limits) {
+  return std::make_shared<ThinningFailure>(std::move(of), limits);
+}
+
+}  // namespace courant

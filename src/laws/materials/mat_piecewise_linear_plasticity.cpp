@@ -1,0 +1,263 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "laws/failure/thinning_failure.hpp"
+#include "laws/materials/strength_cards.hpp"
+#include "laws/strength/hardening.hpp"
+#include "laws/strength/isotropic_plasticity.hpp"
+#include "laws/strength/radial_return.hpp"
+#include "laws/strength/root_below.hpp"
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// Yield stress over effective plastic strain and a rate. [M/LT2]
+struct YieldStress {
+  enum class Rate { none, of_strain, of_deviator, of_plastic_strain } rate = Rate::none;
+  std::vector<Hardening> curves;  ///< one, or of a table one for each of `rates`
+  std::vector<Real> rates{};      ///< increasing [1/T], or their logarithms
+  bool logarithmic = false;
+  Real C = 0, P = 1;  ///< of Cowper and Symonds [1/T], [-]; C = 0: none
+  Real added = 0;     ///< what (rate/C)^(1/P) is a factor of; 0: of the yield stress [M/LT2]
+  Curve factor{};     ///< LCSR, over the rate; empty: none
+
+  bool needs_rate() const { return rate != Rate::none; }
+  Real at_rest(Real e, Real& slope) const {
+    const Real y = curves.front().at(e, slope);
+    if (y < 0) slope = 0;
+    return std::max(y, Real(0));
+  }
+  /// Where the rate counts by one factor for all plastic strains.
+  bool is_scaled() const { return curves.size() == 1 && !(added > 0 && C > 0); }
+  Real scale(Real r) const {
+    if (!factor.abscissa.empty()) return factor(r);
+    return C > 0 ? 1 + std::pow(r / C, 1 / P) : 1;
+  }
+  Real at(Real e, Real r) const {
+    if (curves.size() > 1) return between(e, logarithmic ? std::log(r) : r);
+    const Real y = curves.front().at(e);
+    return added > 0 && C > 0 ? y + added * std::pow(r / C, 1 / P) : scale(r) * y;
+  }
+  Real increment(const PointBlock& block, Index i, Real q, Real e, Real three_g) const {
+    const Real most = q / three_g;  // where softening leaves no strength, not beyond
+    if (rate == Rate::of_plastic_strain && block.dt > 0) {
+      if (!(q > std::max(at(e, 0), Real(0)))) return 0;
+      return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, de / block.dt); });
+    }
+    const Real at_rate = rate == Rate::none || rate == Rate::of_plastic_strain
+                             ? 0
+                             : effective_rate(block, i, rate == Rate::of_deviator);
+    if (!(q > std::max(at(e, at_rate), Real(0)))) return 0;
+    if (is_scaled()) return std::min(curves.front().increment(q, three_g, e, scale(at_rate)), most);
+    return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, at_rate); });
+  }
+
+ private:
+  Real strength(Real e, Real r) const { return std::max(at(e, r), Real(0)); }
+  /// Of a table: straight between curves, constant beyond the first and the last.
+  Real between(Real e, Real r) const {
+    const auto above = std::upper_bound(rates.begin(), rates.end(), r);
+    if (above == rates.begin()) return curves.front().at(e);
+    if (above == rates.end()) return curves.back().at(e);
+    const auto k = static_cast<std::size_t>(above - rates.begin());
+    const Real share = (r - rates[k - 1]) / (rates[k] - rates[k - 1]);
+    return (1 - share) * curves[k - 1].at(e) + share * curves[k].at(e);
+  }
+};
+
+using M = struct MatPiecewiseLinearPlasticity;
+struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
+  Hardening table() const {
+    Hardening out{{eps1, eps2, eps3, eps4, eps5, eps6, eps7, eps8}, {es1, es2, es3, es4, es5, es6, es7, es8}};
+    drop_blank_points(out);
+    return out;
+  }
+  /// Without points where there is none; `check` tells.
+  static Curve curve_of(const Model& model, Id id) {
+    const auto found = model.curves.find(id);
+    return found == model.curves.end() ? Curve() : found->second;
+  }
+  static Hardening of_curve(const Curve& curve) { return {curve.abscissa, curve.ordinate}; }
+  bool has_table(const Model& model) const { return lcss != 0 && model.tables.count(lcss) > 0; }
+
+  std::shared_ptr<StrengthLaw> law(const Model& model) const {
+    using Rate = YieldStress::Rate;
+    YieldStress yield;
+    if (has_table(model)) {
+      const Table& t = model.tables.at(lcss);
+      for (const Id id : t.curve) yield.curves.push_back(of_curve(curve_of(model, id)));
+      yield.rates = t.value;
+      yield.logarithmic = !t.value.empty() && t.value.front() < 0;
+    } else {
+      Hardening one = lcss != 0 ? of_curve(curve_of(model, lcss)) : table();
+      if (lcss == 0 && one.strain.empty()) one = {{0, 1}, {sigy, sigy + E * etan / (E - etan)}};
+      yield.curves.push_back(std::move(one));
+      yield.C = c, yield.P = c > 0 ? p : 1;
+      if (vp == 1) yield.added = sigy;
+      if (lcsr != 0) yield.factor = curve_of(model, std::abs(lcsr));
+    }
+    if (yield.curves.size() > 1 || c > 0 || lcsr != 0)
+      yield.rate = vp == 1 ? Rate::of_plastic_strain : vp == -1 ? Rate::of_deviator : Rate::of_strain;
+    auto law = std::make_shared<IsotropicPlasticity<YieldStress>>(ro, E, pr, std::move(yield));
+    if (fail > 0 && fail < never_fails) law->fails_at = fail;
+    return law;
+  }
+
+  void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
+  void check_curve(const Deck& deck, const Model& model, Id id, Diagnostics& diagnostics) const;
+  void check_factor(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
+};
+
+void M::check_curve(const Deck& deck, const Model& model, Id id, Diagnostics& diagnostics) const {
+  const auto found = model.curves.find(id);
+  const auto fail = [&](const std::string& what, const char* hint) {
+    deck.error(diagnostics, *this, "LCSS", what, hint);
+  };
+  if (found == model.curves.end())
+    return fail(fmt::format("there is no curve or table {}", id),
+                "add a *DEFINE_CURVE or *DEFINE_TABLE of yield stress over effective plastic strain");
+  const Hardening points = of_curve(found->second);
+  if (points.strain.size() < 2)
+    return fail(fmt::format("curve {} has less than two points", id), "yield stress over plastic strain");
+  for (std::size_t k = 0; k < points.strain.size(); ++k) {
+    if (!(points.stress[k] > 0))
+      return fail(fmt::format("curve {}: expected yield stresses > 0, got '{:g}' at point {}", id,
+                              points.stress[k], k + 1),
+                  "the first point is the yield stress without plastic strain");
+    if (k == 0) continue;
+    if (!(points.strain[k] > points.strain[k - 1]))
+      return fail(fmt::format("curve {} jumps at plastic strain {:g}", id, points.strain[k]),
+                  "plastic strains increase from point to point");
+    if (const SteepestFall fall = steepest_fall(model, mid, E, pr); !(points.slope(k - 1) > fall.slope))
+      return fail(fmt::format("curve {} behind point {}: {}", id, k, fall.too_fast), "");
+  }
+  if (points.strain.front() != 0)
+    deck.warning(diagnostics, *this, "LCSS",
+                 fmt::format("curve {} begins at a plastic strain of {:g}, not 0", id, points.strain.front()),
+                 "abscissae are effective plastic strains, without the elastic part");
+}
+
+void M::check_factor(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+  if (lcsr == 0) return;
+  const Curve factor = curve_of(model, std::abs(lcsr));
+  const char* hint = "a *DEFINE_CURVE of the factor of the yield stress over the rate of strain";
+  if (factor.abscissa.empty())
+    deck.error(diagnostics, *this, "LCSR", fmt::format("curve {} does not exist", std::abs(lcsr)), hint);
+  else if (*std::min_element(factor.ordinate.begin(), factor.ordinate.end()) <= 0)
+    deck.error(diagnostics, *this, "LCSR",
+               fmt::format("curve {} has factors that are not > 0", std::abs(lcsr)), hint);
+  if (c > 0)
+    deck.error(diagnostics, *this, "LCSR", "stands beside C and P, which tell the same", "give one of them");
+}
+
+void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
+    if (!holds)
+      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
+  };
+  expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
+  expect(fail >= 0, "FAIL", "a number >= 0", fail, "failure by a subroutine of one's own is not supported");
+  if (const Hardening points = table(); lcss == 0 && !points.strain.empty()) {
+    check_points(deck, *this, points, steepest_fall(model, mid, E, pr), diagnostics);
+  } else if (lcss == 0) {
+    expect(sigy > 0, "SIGY", "a number > 0", sigy,
+           "the yield stress comes from LCSS, from the table of EPS and ES, or from SIGY and ETAN");
+    expect(etan < E, "ETAN", "a number below E", etan,
+           "beyond the yield stress the material is softer than before");
+  } else if (has_table(model)) {
+    const Table& t = model.tables.at(lcss);
+    if (t.of_tables)
+      deck.error(diagnostics, *this, "LCSS", fmt::format("table {} is one of tables", lcss),
+                 "give a table of curves, one for each rate of strain");
+    else
+      for (const Id id : t.curve) check_curve(deck, model, id, diagnostics);
+    if (c > 0 || lcsr != 0)
+      deck.warning(diagnostics, *this, c > 0 ? "C" : "LCSR", "does nothing beside a table of rates");
+  } else {
+    check_curve(deck, model, lcss, diagnostics);
+  }
+  check_factor(deck, model, diagnostics);
+  expect((c > 0) == (p > 0), c > 0 ? "P" : "C", "a number > 0", 0,
+         "the rate of strain counts by C and P together; leave both blank where it does not");
+}
+
+// By hand. E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3, 3 G = 3; dt = 1/2. dev e = (2, -1, -1): s_tr = (4, -2,
+// -2), q = 6, at a rate 4. SIGY 3, ETAN 1/2: Ep = 5/8, de = 3/(3 + 5/8) = 24/29, s = 17/29 (4, -2, -2).
+// Points (0, 3) (1/4, 4) (5/4, 4): the first piece, slope 4, would give de = 3/7 > 1/4, so the second: 6 - 3
+// de = 4, de = 2/3, q = 4. Yield stress 2 (de = 4/3, s = 1/3 of s_tr): by LCSR from 1 at 0 to 3 at 8; by a
+// table of 1 at 0 and 3 at 8, or 1 at ln(1/4) and 3 at ln 64. C: e = (3, 0, 0), the mean stress is 5; rate
+// sqrt(2/3) 6 = sqrt(24), of the deviator 4. With C = sqrt(24), P = 1, SIGY = 1 the yield stress is 2, or 1 +
+// 4/sqrt(24). Rate of plastic strain 2 de, C = P = 1: SIGY = 1, Ep = 5/8: 6 - 3 de = 1 + 5/8 de + 2 de, de =
+// 8/9; of a curve alone 6 - 3 de = (1 + 5/8 de)(1 + 2 de), de = (sqrt(56.640625) - 5.625)/2.5.
+const Real faster_alone = (std::sqrt(56.640625) - 5.625) / 2.5;
+constexpr Real on_deviator = 1.8164965809277260;
+const std::string curves =
+    "*DEFINE_CURVE\n1\n0.0,1.0\n1.0,1.0\n*DEFINE_CURVE\n2\n0.0,3.0\n1.0,3.0\n*DEFINE_CURVE\n3\n0.0,1.0\n"
+    "8.0,3.0\n*DEFINE_CURVE\n4\n0.0,1.0\n1.0,1.625\n*DEFINE_CURVE\n5\n0.0,3.0\n0.25,4.0\n1.25,4.0\n"
+    "*DEFINE_TABLE_2D\n6\n0.0,1\n8.0,2\n*DEFINE_TABLE_2D\n7\n-1.3862943611198906,1\n4.1588830833596715,2\n";
+const std::array<Real, 6> pull{2, -1, -1}, a_third{4.0 / 3, -2.0 / 3, -2.0 / 3},
+    two_thirds{8.0 / 3, -4.0 / 3, -4.0 / 3};
+StrengthReference flows(const std::string& cards, const std::array<Real, 6>& after, Real plastic) {
+  return {cards + curves, pull, {}, after, {0}, {plastic}};
+}
+std::array<Real, 6> with_q(Real q, Real mean = 0) {
+  return {mean + 2 * q / 3, mean - q / 3, mean - q / 3};
+}
+const RegisterStrength<M> mat_piecewise_linear_plasticity{
+    "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 s:s) <= sigma_y(e, rate) by LCSS, EPS and ES, or SIGY + Ep e, Ep "
+    "= E ETAN/(E - ETAN); times 1 + (rate/C)^(1/P) or LCSR(rate); VP 1 with SIGY: plus SIGY (rate/C)^(1/P); "
+    "return along s_tr; pressure by Hooke's law",
+    "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {flows("1,2.0,2.5,0.25,3.0,0.5\n\n\n\n", with_q(102.0 / 29), 24.0 / 29),
+     flows("1,2.0,2.5,0.25\n\n0.0,0.25,1.25\n3.0,4.0,4.0\n", two_thirds, 2.0 / 3),
+     flows("1,2.0,2.5,0.25\n,,5\n\n\n", two_thirds, 2.0 / 3),
+     flows("1,2.0,2.5,0.25,1.0\n,,,3\n\n\n", a_third, 4.0 / 3),
+     flows("1,2.0,2.5,0.25\n,,6\n\n\n", a_third, 4.0 / 3),
+     flows("1,2.0,2.5,0.25\n,,7\n\n\n", a_third, 4.0 / 3),
+     flows("1,2.0,2.5,0.25,1.0,0.5\n1.0,1.0,,,1\n\n\n", with_q(10.0 / 3), 8.0 / 9),
+     flows("1,2.0,2.5,0.25\n1.0,1.0,4,,1\n\n\n", with_q(6 - 3 * faster_alone), faster_alone),
+     {"1,2.0,2.5,0.25,1.0\n4.898979485566356,1.0\n\n\n", {3}, {}, with_q(2, 5), {0}, {4.0 / 3}},
+     {"1,2.0,2.5,0.25,1.0\n4.898979485566356,1.0,,,-1\n\n\n",
+      {3},
+      {},
+      with_q(on_deviator, 5),
+      {0},
+      {(6 - on_deviator) / 3}}},
+    mat_piecewise_linear_plasticity_table()};
+
+/// The same with failure of sheets by thinning, and a number of points that takes the element away.
+using Thinning = struct MatModifiedPiecewiseLinearPlasticity;
+struct MatModifiedPiecewiseLinearPlasticity : M {
+  std::shared_ptr<StrengthLaw> law(const Model& model) const {
+    ThinningLimits limits;
+    if (epsthin > 0) limits.thinning = epsthin;
+    if (epsmaj > 0) limits.major = epsmaj;
+    const auto plain = M::law(model);
+    return limits.any() ? fail_by_thinning(plain, limits) : plain;
+  }
+  void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+    M::check(deck, model, diagnostics);
+    for (const auto& [field, value] : {std::pair{"EPSTHIN", epsthin}, std::pair{"EPSMAJ", epsmaj}})
+      if (value < 0)
+        deck.error(diagnostics, *this, field, fmt::format("'{:g}' is not supported", value),
+                   "values > 0 are limits of each point; means and filtered strains (< 0) are not there");
+  }
+};
+
+// Stress as above; nothing is as thin or as long as to fail.
+const RegisterStrength<Thinning> mat_modified_piecewise_linear_plasticity{
+    "as MAT_PIECEWISE_LINEAR_PLASTICITY; points of shells fail at -e_zz = EPSTHIN and at the larger "
+    "principal strain in the "
+    "plane EPSMAJ, logarithmic",
+    "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {flows("1,2.0,2.5,0.25,3.0,0.5\n\n\n\n", with_q(102.0 / 29), 24.0 / 29),
+     flows("1,2.0,2.5,0.25,3.0,0.5\n0.0,0.0,0,0,0,0.5,2.0,0\n\n\n", with_q(102.0 / 29), 24.0 / 29)},
+    mat_modified_piecewise_linear_plasticity_table()};
+
+}  // namespace
+
+}  // namespace courant

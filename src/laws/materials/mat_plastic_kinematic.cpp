@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "laws/materials/strength_cards.hpp"
+#include "laws/strength/linear_hardening.hpp"
+#include "laws/strength/plane_return.hpp"
+#include "laws/strength/radial_return.hpp"
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// J2 plasticity with linear isotropic and kinematic hardening: s_tr = s + 2 G dev(D) dt is returned along
+/// xi_tr = s_tr - alpha, with de = (q_tr - sigma_y)/(3 G + Ep) where the rate has no influence. Trial and
+/// return have no branches, so that they go through registers of several points.
+class PlasticKinematic : public StrengthLaw {
+ public:
+  PlasticKinematic(Real density, const LinearHardening& data) : a_(data) { ro = density; }
+  Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
+  Real shear_modulus() const override { return a_.G; }
+  Real failure_limit() const override { return a_.fails_at; }
+  Real failure_time() const override { return a_.fails_at_time; }
+  std::vector<HistoryVariable> history() const override {
+    std::vector<HistoryVariable> out{{"plastic_strain", "-"}};
+    if (a_.kinematic > 0) out.push_back({"back_stress", "M/LT2", 6});
+    return out;
+  }
+
+  void update(const PointBlock& block) const override {
+    if (a_.kinematic > 0)
+      update(block, MovingCentre{block.history.data() + 1});
+    else
+      update(block, FixedCentre{});
+    keep_stiffness(block, sound_speed());
+  }
+
+  /// Without back stress and rates by the multiplier alone.
+  void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
+    if (a_.kinematic > 0 || a_.C > 0 || !(block.dt > 0))
+      return StrengthLaw::update_in_plane_stress(block, rate_zz);
+    update_in_plane(in_plane_, {a_.lambda, a_.G}, block, rate_zz,
+                    [this](Index count, const Real* e, Real* Y, Real* h) {
+#pragma omp simd
+                      for (Index i = 0; i < count; ++i)
+                        Y[i] = a_.yield + a_.isotropic * e[i], h[i] = a_.isotropic;
+                    });
+    keep_stiffness(block, sound_speed());
+  }
+
+ private:
+  template <class Centre>
+  void update(const PointBlock& block, const Centre& centre) const {
+    PlasticTrial trial;
+    go_elastically(a_.lambda, a_.G, block, centre, trial);
+    harden(block, trial);
+    return_radially(a_.G, a_.kinematic, a_.yield, block, centre, trial);
+  }
+
+  /// The increments of plastic strain.
+  void harden(const PointBlock& block, PlasticTrial& trial) const {
+    const Real stiffness = 3 * a_.G + a_.isotropic + a_.kinematic;
+    Real* plastic = block.history[0];
+    if (a_.C > 0 && block.dt > 0)
+      for (Index i = 0; i < block.count; ++i)
+        trial.plastic[i] = a_.of_plastic_rate
+                               ? overstressed(trial.q[i], plastic[i], block.dt)
+                               : faster(trial.q[i], plastic[i], effective_rate(block, i, true));
+    else
+#pragma omp simd
+      for (Index i = 0; i < block.count; ++i)
+        trial.plastic[i] = std::max(trial.q[i] - a_.yield - a_.isotropic * plastic[i], Real(0)) / stiffness;
+#pragma omp simd
+    for (Index i = 0; i < block.count; ++i) plastic[i] += trial.plastic[i];
+  }
+
+  /// sigma_y = (1 + (rate/C)^(1/P)) (SIGY + BETA Ep e): linear in the increment.
+  Real faster(Real q, Real plastic, Real rate) const {
+    const Real scale = 1 + std::pow(rate / a_.C, 1 / a_.P);
+    const Real over = q - scale * (a_.yield + a_.isotropic * plastic);
+    return over > 0 ? over / (3 * a_.G + a_.kinematic + scale * a_.isotropic) : 0;
+  }
+  /// The same with the rate of plastic strain, de/dt. In u = (de/(C dt))^(1/P) the excess
+  ///   q - (3 G + (1 - BETA) Ep) de - (1 + u) (SIGY + BETA Ep (e + de)),  de = C dt u^P,
+  /// falls without a kink: Newton's method, held between bounds, from the answer without the rate.
+  Real overstressed(Real q, Real plastic, Real dt) const {
+    const Real yield = a_.yield + a_.isotropic * plastic, stiffness = 3 * a_.G + a_.kinematic;
+    if (!(q > yield)) return 0;
+    const Real scale = a_.C * dt, most = (q - yield) / (stiffness + a_.isotropic);
+    Real low = 0, high = std::pow(most / scale, 1 / a_.P), u = high;
+    constexpr int rounds = 100;
+    constexpr Real close = 1e-14;
+    for (int k = 0; k < rounds; ++k) {
+      const Real de = scale * std::pow(u, a_.P), slope = u > 0 ? a_.P * de / u : 0;
+      const Real excess = q - stiffness * de - (1 + u) * (yield + a_.isotropic * de);
+      (excess > 0 ? low : high) = u;
+      const Real fall = stiffness * slope + yield + a_.isotropic * (de + (1 + u) * slope);
+      const Real newton = u + excess / fall, before = u;
+      u = newton >= low && newton <= high ? newton : 0.5 * (low + high);
+      if (std::abs(u - before) <= close * u) break;
+    }
+    return scale * std::pow(u, a_.P);
+  }
+
+  LinearHardening a_;
+  PlaneReturnLoops in_plane_ = plane_return_loops();
+};
+
+struct MatPlasticKinematic : MatPlasticKinematicFields {
+  std::shared_ptr<StrengthLaw> law() const {
+    const Real Ep = E * etan / (E - etan);
+    LinearHardening data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
+    data.yield = sigy, data.isotropic = beta * Ep, data.kinematic = (1 - beta) * Ep;
+    data.C = src, data.P = srp, data.of_plastic_rate = vp == 1;
+    if (fs > 0 && fs < never_fails) data.fails_at = fs;
+    return linear_hardening_law(ro, data);
+  }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
+      if (!holds)
+        deck.error(diagnostics, *this, field, fmt::format("expected a number {}, got '{:g}'", what, value),
+                   hint);
+    };
+    expect(pr < 0.5, "PR", "< 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
+    expect(etan < E, "ETAN", "below E", etan, "beyond the yield stress the material is softer than before");
+    expect(beta <= 1, "BETA", "from 0 to 1", beta, "0 is kinematic hardening, 1 isotropic");
+    expect((src > 0) == (srp > 0), src > 0 ? "SRP" : "SRC", "> 0", 0,
+           "the rate of strain counts by SRC and SRP together; leave both blank where it does not");
+  }
+};
+
+// By hand. E = 2.5, PR = 1/4: lambda = G = 1, 3 G = 3. ETAN = 0.5: Ep = 2.5 0.5/2 = 5/8. SIGY = 3 and dev e =
+// (2, -1, -1): xi = (4, -2, -2), q = 6, over by 3: de = 3/(3 + 5/8) = 24/29, and s loses 3 de/6 = 12/29 of
+// xi: s = 17/29 (4, -2, -2). Kinematic: alpha = (5/8) de/6 xi = (5/58) xi for BETA 0, half of it for 1/2.
+// A back stress 1 in shear: xi_xy = 2 - 1, q = sqrt(3) = sigma_y: no flow yet.
+// Rates (dt = 1/2): shear e_xy = 2 in 1/2: D_xy = 4, rate sqrt(4/3) 4 = 8/sqrt(3); SRC = that, SRP = 3:
+// factor 2. s_xy = 4, q = 4 sqrt(3), sigma_y = 2 sqrt(3) for SIGY = sqrt(3), ETAN = 0: s_xy = 2. VP 1: SIGY =
+// 1, SRP = 1, ETAN = 0, C dt = 1/2: 6 - 3 de = 1 + 2 de: de = 1, q = 3.
+const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
+    "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 xi:xi) <= (1 + (rate/SRC)^(1/SRP)) (SIGY + BETA Ep e), xi = s - "
+    "alpha, Ep = E ETAN/(E - ETAN); return along xi_tr; dalpha = (1 - BETA) Ep de xi/q; pressure by Hooke's "
+    "law",
+    "J2 plasticity, radial return with kinematic hardening: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {{"1,2.0,2.5,0.25,3.0,0.5,1.0\n", {0.1, 0, 0, 0, 0, 0}, {1, 1, 1}, {1.3, 1.1, 1.1, 0, 0, 0}, {0}, {0}},
+     {"1,2.0,2.5,0.25,3.0,0.5,1.0\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {68.0 / 29, -34.0 / 29, -34.0 / 29, 0, 0, 0},
+      {0},
+      {24.0 / 29}},
+     {"1,2.0,2.5,0.25,3.0,0.5,0.0\n",
+      {2, -1, -1, 0, 0, 0},
+      {5, 5, 5},
+      {5 + 68.0 / 29, 5 - 34.0 / 29, 5 - 34.0 / 29, 0, 0, 0},
+      {0, 0, 0, 0, 0, 0, 0},
+      {24.0 / 29, 10.0 / 29, -5.0 / 29, -5.0 / 29, 0, 0, 0}},
+     {"1,2.0,2.5,0.25,3.0,0.5,0.5\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {68.0 / 29, -34.0 / 29, -34.0 / 29, 0, 0, 0},
+      {0, 0, 0, 0, 0, 0, 0},
+      {24.0 / 29, 5.0 / 29, -2.5 / 29, -2.5 / 29, 0, 0, 0}},
+     {"1,2.0,2.5,0.25,1.7320508075688774,0.5,0.0\n",
+      {0, 0, 0, 0.5, 0, 0},
+      {0, 0, 0, 1, 0, 0},
+      {0, 0, 0, 2, 0, 0},
+      {0.5, 0, 0, 0, 1, 0, 0},
+      {0.5, 0, 0, 0, 1, 0, 0}},
+     {"1,2.0,2.5,0.25,1.7320508075688772,0.0,1.0\n4.6188021535170063,3.0\n",
+      {0, 0, 0, 2, 0, 0},
+      {},
+      {0, 0, 0, 2, 0, 0},
+      {0},
+      {1.1547005383792515}},
+     {"1,2.0,2.5,0.25,1.0,0.0,1.0\n1.0,1.0,0.0,1\n",
+      {2, -1, -1, 0, 0, 0},
+      {},
+      {2, -1, -1, 0, 0, 0},
+      {0},
+      {1}}},
+    mat_plastic_kinematic_table()};
+
+}  // namespace
+
+std::shared_ptr<StrengthLaw> linear_hardening_law(Real density, const LinearHardening& data) {
+  return std::make_shared<PlasticKinematic>(density, data);
+}
+
+}  // namespace courant

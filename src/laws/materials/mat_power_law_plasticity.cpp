@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "laws/materials/strength_cards.hpp"
+#include "laws/strength/isotropic_plasticity.hpp"
+#include "laws/strength/radial_return.hpp"
+#include "laws/strength/root_below.hpp"
+#include "laws/strength/strength.hpp"
+
+namespace courant {
+
+namespace {
+
+/// sigma_y = K (e0 + e)^N, with the influence of the rate by Cowper and Symonds.
+struct PowerLaw {
+  Real K = 0, N = 0;     ///< [M/LT2], [-]
+  Real e0 = 0;           ///< strain at which yielding begins [-]
+  Real C = 0, P = 0;     ///< [1/T], [-]; C = 0: none
+  bool viscous = false;  ///< VP: the rate is that of plastic strain
+  bool needs_rate() const { return C > 0; }
+  Real at_rest(Real e, Real& slope) const {
+    const Real y = K * std::pow(e0 + e, N);
+    slope = N * y / (e0 + e);
+    return y;
+  }
+  Real at(Real e, Real rate) const {
+    return K * std::pow(e0 + e, N) * (C > 0 ? 1 + std::pow(rate / C, 1 / P) : 1);
+  }
+  Real increment(const PointBlock& block, Index i, Real q, Real e, Real three_g) const {
+    const bool by_plastic_rate = viscous && C > 0 && block.dt > 0;
+    const Real rate = C > 0 && !by_plastic_rate ? effective_rate(block, i, true) : 0;
+    if (!(q > at(e, rate))) return 0;
+    return root_below(q / three_g, [&](Real de) {
+      return q - three_g * de - at(e + de, by_plastic_rate ? de / block.dt : rate);
+    });
+  }
+};
+
+using Power = struct MatPowerLawPlasticity;
+struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
+  static constexpr Real largest_strain = 0.02;
+  bool sigy_is_stress = false;  ///< told before it was converted
+  /// SIGY is a stress, or up to 0.02 the strain e0 itself; 0: where the power law meets E e.
+  Real first_strain() const {
+    if (sigy > largest_strain || sigy_is_stress) return std::pow(sigy / k, 1 / n);
+    return sigy > 0 ? sigy : std::pow(E / k, 1 / (n - 1));
+  }
+  std::shared_ptr<StrengthLaw> law() const {
+    auto law = std::make_shared<IsotropicPlasticity<PowerLaw>>(
+        ro, E, pr, PowerLaw{.K = k, .N = n, .e0 = first_strain(), .C = src, .P = srp, .viscous = vp == 1});
+    if (epsf > 0 && epsf < never_fails) law->fails_at = epsf;
+    return law;
+  }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
+      if (!holds)
+        deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
+    };
+    expect(pr < 0.5, "PR", "a number < 0.5", pr,
+           "a material that keeps its volume has no finite bulk modulus");
+    expect(n > 0 && n < 1, "N", "a number between 0 and 1", n, "the exponent of hardening");
+    expect(vp == 0 || vp == 1, "VP", "0 or 1", vp, "1: the rate is that of plastic strain");
+    expect((src > 0) == (srp > 0), src > 0 ? "SRP" : "SRC", "a number > 0", 0,
+           "the rate of strain counts by SRC and SRP together; leave both blank where it does not");
+  }
+};
+
+// By hand. E = 2.5, PR = 1/4: G = 1, 3 G = 3, dt = 1/2. Pulled by (2, -1, -1): s = (4, -2, -2), q = 6. K = 3,
+// N = 1/2: with a = e0 + e before, 2 - de = sqrt(a + de), de = (5 - sqrt(9 + 4 a))/2. SIGY = 3/2: e0 = 1/4;
+// SIGY = 0: e0 = (2.5/3)^-2 = 1.44; SIGY = 0.01: that. The rate of the deviator is 4; SRC 4, SRP 2 double the
+// yield stress: SIGY = 3/4, a = 1/16: 6 - 3 de = 6 sqrt(a + de), de = 1/2. Rate of plastic strain 2 de, SRC =
+// SRP = 1: the same.
+StrengthReference flows_by(const std::string& cards, Real before, Real de) {
+  const Real q = 6 - 3 * de;
+  return {cards, {2, -1, -1}, {}, {2 * q / 3, -q / 3, -q / 3}, {before}, {before + de}};
+}
+const RegisterStrength<Power> mat_power_law_plasticity{
+    "q = sqrt(3/2 s:s) <= K (e0 + e)^N (1 + (rate/SRC)^(1/SRP)), e0 by SIGY or E e0 = K e0^N; return along "
+    "s; "
+    "pressure by Hooke's law",
+    "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
+    {flows_by("1,2.0,2.5,0.25,3.0,0.5\n1.5\n", 0.140625, 0.875),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5\n", 0, 0.5 * (5 - std::sqrt(14.76))),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5\n0.01\n", 0, 0.5 * (5 - std::sqrt(9.04))),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5,4.0,2.0\n0.75\n", 0, 0.5),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5,1.0,1.0\n0.75,1.0\n", 0, 0.5)},
+    mat_power_law_plasticity_table()};
+
+}  // namespace
+
+/// Where SIGY is a strain it has no unit.
+std::string keep_first_strain(MatPowerLawPlasticityFields& fields, const Conversion& conversion) {
+  auto& card = static_cast<MatPowerLawPlasticity&>(fields);
+  const Real factor = conversion.units.of("M/LT2");
+  card.sigy_is_stress = card.sigy > Power::largest_strain * factor;
+  if (!card.sigy_is_stress) card.sigy /= factor;
+  return "";
+}
+
+}  // namespace courant

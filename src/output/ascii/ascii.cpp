@@ -1,0 +1,183 @@
+#include "output/ascii/ascii.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <stdexcept>
+#include <utility>
+
+#include "output/result_names.hpp"
+
+namespace courant {
+
+std::string ascii_header(const std::string& title, const std::string& date) {
+  return fmt::format(" {:<72.72}\n                         courant {:<34}date {}\n", title, COURANT_VERSION,
+                     date);
+}
+
+void HistoryRequests::ask(const std::string& name, OutputSchedule schedule, int binary) {
+  for (const HistoryFile& file : history_files())
+    if (file.name == name) return files.push_back({file, std::move(schedule), binary});
+  throw std::out_of_range("no history " + name);
+}
+
+namespace {
+
+/// One that an earlier run left and this one does not write would pass for this one's. Others' files are
+/// theirs.
+void remove_ours(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  std::error_code ignored;  // a file that cannot be removed does no harm to this run
+  if (std::getline(stream, line) && std::getline(stream, line) &&
+      line.starts_with("                         courant "))
+    std::filesystem::remove(file, ignored);
+}
+
+}  // namespace
+
+Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
+                     const HistoryPositions* resume)
+    : dir_(dir) {
+  const std::string header =
+      ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
+  make_folder(dir);
+  std::vector<std::string> unused;
+  for (const HistoryFile& file : history_files())
+    if (std::none_of(requests.files.begin(), requests.files.end(),
+                     [&](const auto& request) { return request.file.name == file.name; }))
+      unused.push_back(file.name);
+  for (HistoryRequests::Request& request : requests.files) {
+    const std::string& name = request.file.name;
+    const bool binout = request.binary == 2 || request.binary == 3;
+    const bool text = request.binary != 2 || !has_binout(name);
+    if (!request.schedule.is_wanted() || !text) unused.push_back(name);
+    if (!request.schedule.is_wanted()) continue;
+    files_.push_back({request.schedule, name, {}, binout && has_binout(name), std::move(request.file.text)});
+    if (!text) continue;
+    const bool goes_on = resume && resume->bytes.contains(name);
+    TextFile& file = files_.back().file.emplace(dir / name, goes_on);
+    if (goes_on) {
+      const auto bytes = static_cast<std::uintmax_t>(resume->bytes.at(name));
+      if (file.size() < bytes) lost_.push_back(fmt::format("{} has lost its end before the restart", name));
+      file.cut(bytes);
+    }
+    if (file.size() == 0)
+      file.write(header + (request.file.head ? request.file.head(requests.titles) : std::string()));
+  }
+  if (!resume)
+    for (const std::string& name : unused) remove_ours(dir / name);
+  if (std::any_of(files_.begin(), files_.end(), [](const Ascii& file) { return file.in_binout; })) {
+    const auto states = resume ? resume->binout_states : std::map<std::string, std::int64_t>();
+    const bool goes_on = resume && resume->binout_bytes > 0;
+    binout_.emplace(
+        result_path(dir, result_names::binout), requests.title, states,
+        goes_on ? std::optional(static_cast<std::uintmax_t>(resume->binout_bytes)) : std::nullopt);
+  }
+  choose_h5_times(requests.h5);
+  if (!h5_schedules_.empty()) h5_.emplace(result_path(dir, result_names::history));
+  if (!resume) return;
+  set_first_potential(*resume);
+  const auto rows = static_cast<std::size_t>(resume->rows);
+  if (h5_ && rows > 0 && h5_->resume(rows) < rows)
+    lost_.push_back("history.h5 has lost samples before the restart");
+}
+
+// What is due next follows from the time; whether the last sample was at this very time does not.
+void Histories::keep(Archive& archive, Real t) {
+  const Archive::Group inside(archive, "histories");
+  std::map<std::string, Real> last;
+  for (const Ascii& file : files_) last[file.name] = file.last;
+  last["history.h5"] = h5_last_;
+  archive("last", last);
+  if (!archive.loading()) return;
+  const auto take_over = [&](const std::string& name, Real& to) {
+    if (last.contains(name)) to = last[name];
+  };
+  for (Ascii& file : files_) {
+    take_over(file.name, file.last);
+    file.schedule.skip_to(t);
+  }
+  take_over("history.h5", h5_last_);
+  for (OutputSchedule& schedule : h5_schedules_) schedule.skip_to(t);
+}
+
+HistoryPositions Histories::positions() const {
+  HistoryPositions out;
+  for (const Ascii& file : files_)
+    if (file.file) out.bytes[file.name] = static_cast<std::int64_t>(file.file->size());
+  if (binout_)
+    out.binout_states = binout_->states(), out.binout_bytes = static_cast<std::int64_t>(binout_->size());
+  if (h5_) out.rows = static_cast<std::int64_t>(h5_->rows());
+  if (first_potential_) out.first_potential = {*first_potential_};
+  return out;
+}
+
+void Histories::choose_h5_times(const OutputSchedule& wanted) {
+  if (wanted.is_wanted()) {
+    h5_schedules_ = {wanted};
+    return;
+  }
+  Real shortest = 0;
+  for (const Ascii& file : files_) {
+    const Real interval = file.schedule.interval();
+    if (interval <= 0)
+      h5_schedules_.push_back(file.schedule);
+    else if (shortest == 0 || interval < shortest)
+      shortest = interval;
+  }
+  if (shortest > 0) h5_schedules_.emplace_back(shortest);
+}
+
+bool Histories::is_due(Real t, Real dt) const {
+  const auto due = [&](const OutputSchedule& schedule) { return schedule.is_due(t, dt); };
+  return std::any_of(h5_schedules_.begin(), h5_schedules_.end(), due) ||
+         std::any_of(files_.begin(), files_.end(), [&](const Ascii& file) { return due(file.schedule); });
+}
+
+Histories::Due Histories::take(Real t, Real dt, bool always) {
+  Due due;
+  const auto add = [&](bool is_due, Real& last) {
+    due.push_back((is_due || always) && last != t);
+    if (due.back()) last = t;
+  };
+  for (Ascii& file : files_) add(file.schedule.take(t, dt), file.last);
+  bool h5_is_due = false;
+  for (OutputSchedule& schedule : h5_schedules_) h5_is_due |= schedule.take(t, dt);
+  add(h5_is_due, h5_last_);
+  return due;
+}
+
+void Histories::write(const Sample& sample, const Due& due) {
+  if (!first_potential_) first_potential_ = sample.energy.potential;
+  for (std::size_t i = 0; i < files_.size(); ++i)
+    if (due[i]) write(files_[i], sample);
+  if (h5_ && due.back()) h5_->record(sample);
+}
+
+void Histories::write(Ascii& to, const Sample& sample) {
+  if (to.file) to.file->write(to.text(sample, *first_potential_));
+  if (to.in_binout) binout_->write(to.name, sample, *first_potential_);
+}
+
+void Histories::finish() {
+  if (h5_) h5_->flush();
+}
+
+std::int64_t Histories::bytes() const {
+  std::int64_t sum = 0;
+  const auto add = [&](const std::string& name) {
+    std::error_code none;  // a file that was not begun
+    const std::uintmax_t size = std::filesystem::file_size(dir_ / name, none);
+    if (!none) sum += static_cast<std::int64_t>(size);
+  };
+  for (const Ascii& file : files_) add(file.name);
+  if (h5_) add("history.h5");
+  if (binout_) add(result_names::binout);
+  return sum;
+}
+
+}  // namespace courant
