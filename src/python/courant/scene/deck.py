@@ -213,8 +213,8 @@ def _long_lines(columns: list[np.ndarray]) -> bytes:
 
 
 def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bool = False) -> list[bytes]:
-    """The whole deck in pieces; `name` of the file of the scene, in YAML or Python, goes into its first comment. Ids are consecutive within a part; ids that clash or do not fit their columns are
-    errors, and there are then no pieces."""
+    """The whole deck in pieces; `name` of the file of the scene, in YAML or Python, goes into its first comment. Ids are consecutive within a part; ids
+    that clash or do not fit their columns are errors, and there are then no pieces."""
     before = diagnostics.errors
     placer = Placer(model.variables, diagnostics)
     placed = [placer.place(part) for part in model.parts]

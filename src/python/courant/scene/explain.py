@@ -22,8 +22,10 @@ def explain_basin(basin: Basin, model: Model) -> None:
         "*EOS_LINEAR_POLYNOMIAL C1")
     add(f"artificial viscosity {number_text(basin.friction)}", "given" if basin.viscosity is not None else
         "damps the sound of blows" + (", half of that with contact alone, as density diffusion does the rest" if basin.mirrors else ""), "*HOURGLASS Q2")
-    add("the water takes tension" if basin.tension else "the water takes no tension", "water under suction stays in one piece" if basin.tension else "given", "*MAT_NULL PC")
-    add(f"steps of {number_text(basin.step_factor)} of the longest stable ones", "beside mirrors still water then keeps its energy to 0.2 %, at 0.9 to 1 %" if basin.mirrors else
+    add("the water takes tension" if basin.tension else "the water takes no tension",
+        "water under suction stays in one piece" if basin.tension else "given", "*MAT_NULL PC")
+    add(f"steps of {number_text(basin.step_factor)} of the longest stable ones",
+        "beside mirrors still water then keeps its energy to 0.2 %, at 0.9 to 1 %" if basin.mirrors else
         "the usual factor", "*CONTROL_TIMESTEP TSSFAC")
     if basin.box or basin.solids:
         right = "beside mirrors pressure is right in all rows, where contact alone gives 1.39 of it in the lowest"

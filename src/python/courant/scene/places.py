@@ -28,19 +28,19 @@ def scattered(stream: int, index: np.ndarray) -> np.ndarray:
 
 def values_at(expression: PlaceExpression, what: str, points: Sequence[np.ndarray], variables: Variables) -> np.ndarray:
     """Values at positions, three arrays of shape (n,). Raises Fault at the first that has none."""
-    size = len(points[0])
+    first, size = 0, len(points[0])
     try:
         formula = PlaceFormula(expression.text, variables)
         values = formula.over(points, size)
         bad = np.flatnonzero(np.isnan(values))
         if not len(bad):
             return values
-        formula.at([float(axis[bad[0]]) for axis in points])
+        first = int(bad[0])
+        formula.at([float(axis[first]) for axis in points])
         reason = "the result is not a finite number"
     except ExpressionFault as fault:
         reason = fault.message + (f", {fault.hint}" if fault.hint else "")
-        bad = np.zeros(1, dtype=int) if "formula" not in locals() else bad
-    x, y, z = (float(axis[bad[0]]) if size else 0.0 for axis in points)
+    x, y, z = (float(axis[first]) if size else 0.0 for axis in points)
     raise Fault(expression.where, f"{what}: {reason} at x = {x:g}, y = {y:g}, z = {z:g}, got '{expression.text}'")
 
 
