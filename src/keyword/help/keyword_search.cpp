@@ -11,14 +11,14 @@ namespace courant {
 
 namespace {
 
-struct KeywordMatch {
+struct MatchingKeyword {
   std::string name;
   const KeywordSpec* spec = nullptr;
 };
 
-std::string listed(const std::vector<KeywordMatch>& found) {
+std::string listed(const std::vector<MatchingKeyword>& found) {
   std::string out;
-  for (const KeywordMatch& f : found)
+  for (const MatchingKeyword& f : found)
     out += fmt::format("*{:<44} {:<10} {}\n", f.name, state_word(support_of(*f.spec).state), f.spec->purpose);
   return out;
 }
@@ -32,13 +32,13 @@ bool has_words(const std::string& name, const std::string& part) {
   return false;
 }
 
-std::vector<KeywordMatch> names_with(const std::string& words, const KeywordSpec* but) {
-  std::vector<KeywordMatch> found;
+std::vector<MatchingKeyword> names_with(const std::string& words, const KeywordSpec* but) {
+  std::vector<MatchingKeyword> found;
   for (const auto& spec : keyword_registry())
     for (const std::string& name : spec->names)
       if (spec.get() != but && has_words(name, words)) found.push_back({name, spec.get()});
   std::sort(found.begin(), found.end(),
-            [](const KeywordMatch& a, const KeywordMatch& b) { return a.name < b.name; });
+            [](const MatchingKeyword& a, const MatchingKeyword& b) { return a.name < b.name; });
   return found;
 }
 
@@ -49,10 +49,10 @@ KeywordAnswer find_keywords(const std::string& name) {
   if (!wanted.empty() && wanted[0] == '*') wanted.erase(0, 1);
   while (!wanted.empty() && wanted.back() == '_') wanted.pop_back();
   if (wanted.empty()) return {true, keyword_list(), ""};
-  const KeywordMatch match = KeywordIndex().match(wanted);
+  const MatchingKeyword match = KeywordIndex().match(wanted);
   const KeywordSpec* spec =
       match.keyword < 0 ? nullptr : keyword_registry()[static_cast<std::size_t>(match.keyword)].get();
-  const std::vector<KeywordMatch> others = names_with(wanted, spec);
+  const std::vector<MatchingKeyword> others = names_with(wanted, spec);
   if (spec) {
     std::string text = keyword_help(wanted);
     if (!others.empty()) text += "\nOther keywords with this name in theirs:\n" + listed(others);
