@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 namespace {
@@ -49,8 +49,8 @@ bool is_listed_result(const std::filesystem::path& name_in_folder) {
   return folder.empty() &&
          (is_d3plot(name) ||
           std::any_of(std::begin(result_names::whole), std::end(result_names::whole), is_name) ||
-          std::any_of(history_files().begin(), history_files().end(),
-                      [&](const HistoryFile& file) { return file.name == name; }));
+          std::any_of(text_histories().begin(), text_histories().end(),
+                      [&](const TextHistory& file) { return file.name == name; }));
 }
 
 std::filesystem::path result_path(const std::filesystem::path& folder,

@@ -10,7 +10,7 @@
 #include "extension/part_values.hpp"
 #include "model/build_model.hpp"
 #include "model/transforms/included_entries.hpp"
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 #include "sph/inlets/injection.hpp"
 #include "state/ranges.hpp"
 
@@ -129,7 +129,7 @@ std::vector<PassNote> Simulation::outputs(bool wanted) const {
     if (on == wanted) notes.push_back({std::move(name), "no *DATABASE_" + keyword});
   };
   add("field states", "BINARY_D3PLOT", out.d3plot.asked() || out.d3plot_count > 0);
-  for (const HistoryFile& file : history_files()) {
+  for (const TextHistory& file : text_histories()) {
     std::string capitals = file.name;
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     add(file.name, capitals, out.history(file.name).asked());

@@ -19,7 +19,7 @@ std::string ascii_header(const std::string& title, const std::string& date) {
 }
 
 void HistoryRequests::ask(const std::string& name, OutputSchedule schedule, int binary) {
-  for (const HistoryFile& file : history_files())
+  for (const TextHistory& file : text_histories())
     if (file.name == name) return files.push_back({file, std::move(schedule), binary});
   throw std::out_of_range("no history " + name);
 }
@@ -46,7 +46,7 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
       ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
   make_folder(dir);
   std::vector<std::string> unused;
-  for (const HistoryFile& file : history_files())
+  for (const TextHistory& file : text_histories())
     if (std::none_of(requests.files.begin(), requests.files.end(),
                      [&](const auto& request) { return request.file.name == file.name; }))
       unused.push_back(file.name);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 #include "output/binout/binout.hpp"
 #include "output/file.hpp"
 #include "output/history.hpp"
@@ -23,7 +23,7 @@ std::string ascii_header(const std::string& title, const std::string& date);
 /// What a run writes, and when.
 struct HistoryRequests {
   struct Request {
-    HistoryFile file{};
+    TextHistory file{};
     OutputSchedule schedule{};  ///< not wanted: an older file of a run is removed
     int binary = 1;             ///< BINARY: 2 in binout, 3 in both, else text
   };
@@ -33,7 +33,7 @@ struct HistoryRequests {
   OutputSchedule h5{};
   std::string title{};
   HistoryTitles titles{};
-  /// Asks for one of history_files(). Throws std::out_of_range where there is none of that name.
+  /// Asks for one of text_histories(). Throws std::out_of_range where there is none of that name.
   void ask(const std::string& name, OutputSchedule schedule, int binary = 1);
 };
 

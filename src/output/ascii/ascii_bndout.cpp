@@ -1,6 +1,6 @@
 #include <fmt/printf.h>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 
@@ -31,7 +31,7 @@ std::string bndout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile bndout{{"bndout", bndout_text}};
+const RegisterTextHistory bndout{{"bndout", bndout_text}};
 
 }  // namespace
 

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 #include "output/glstat.hpp"
 
 namespace courant {
@@ -84,7 +84,7 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   return out;
 }
 
-const RegisterHistoryFile glstat{{"glstat", glstat_text}};
+const RegisterTextHistory glstat{{"glstat", glstat_text}};
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #include <fmt/printf.h>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 
@@ -23,7 +23,7 @@ std::string matsum_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile matsum{
+const RegisterTextHistory matsum{
     {"matsum", matsum_text, [](const HistoryTitles& titles) { return ascii_legend(titles.parts); }}};
 
 }  // namespace

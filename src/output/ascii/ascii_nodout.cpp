@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 namespace {
@@ -37,7 +37,7 @@ std::string nodout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile nodout{{"nodout", nodout_text, [](const HistoryTitles& titles) {
+const RegisterTextHistory nodout{{"nodout", nodout_text, [](const HistoryTitles& titles) {
                                     return titles.nodes.empty() ? std::string() : ascii_legend(titles.nodes);
                                   }}};
 

@@ -1,6 +1,6 @@
 #include <fmt/printf.h>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 namespace {
@@ -37,7 +37,7 @@ std::string rbdout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile rbdout{{"rbdout", rbdout_text}};
+const RegisterTextHistory rbdout{{"rbdout", rbdout_text}};
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #include <fmt/printf.h>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 
@@ -21,7 +21,7 @@ std::string rcforc_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile rcforc{
+const RegisterTextHistory rcforc{
     {"rcforc", rcforc_text, [](const HistoryTitles& titles) { return ascii_legend(titles.contacts); }}};
 
 }  // namespace

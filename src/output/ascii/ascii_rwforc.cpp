@@ -1,6 +1,6 @@
 #include <fmt/printf.h>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 
@@ -15,7 +15,7 @@ std::string rwforc_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile rwforc{
+const RegisterTextHistory rwforc{
     {"rwforc", rwforc_text, [](const HistoryTitles& titles) { return ascii_legend(titles.rigid_walls); }}};
 
 }  // namespace

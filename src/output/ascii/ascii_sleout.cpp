@@ -1,6 +1,6 @@
 #include <fmt/printf.h>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 
@@ -24,7 +24,7 @@ std::string sleout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile sleout{{"sleout", sleout_text}};
+const RegisterTextHistory sleout{{"sleout", sleout_text}};
 
 }  // namespace
 

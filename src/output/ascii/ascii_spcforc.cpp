@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 
@@ -29,7 +29,7 @@ std::string spcforc_text(const Sample& s, Real /*first_potential*/) {
                             total.z());
 }
 
-const RegisterHistoryFile spcforc{{"spcforc", spcforc_text}};
+const RegisterTextHistory spcforc{{"spcforc", spcforc_text}};
 
 }  // namespace
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 namespace courant {
 namespace {
@@ -44,7 +44,7 @@ std::string sphout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterHistoryFile sphout{{"sphout", sphout_text}};
+const RegisterTextHistory sphout{{"sphout", sphout_text}};
 
 }  // namespace
 

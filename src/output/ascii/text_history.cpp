@@ -1,4 +1,4 @@
-#include "output/ascii/history_file.hpp"
+#include "output/ascii/text_history.hpp"
 
 #include <fmt/format.h>
 
@@ -9,27 +9,27 @@ namespace courant {
 
 namespace {
 
-std::vector<HistoryFile>& registry() {
-  static std::vector<HistoryFile> files;
+std::vector<TextHistory>& registry() {
+  static std::vector<TextHistory> files;
   return files;
 }
 
 }  // namespace
 
-const std::vector<HistoryFile>& history_files() {
+const std::vector<TextHistory>& text_histories() {
   return registry();
 }
 
 // Files register in an order that the linker chooses.
-RegisterHistoryFile::RegisterHistoryFile(HistoryFile file) {
+RegisterTextHistory::RegisterTextHistory(TextHistory file) {
   const auto at =
       std::lower_bound(registry().begin(), registry().end(), file.name,
-                       [](const HistoryFile& a, const std::string& name) { return a.name < name; });
+                       [](const TextHistory& a, const std::string& name) { return a.name < name; });
   registry().insert(at, std::move(file));
 }
 
 std::string history_text(const std::string& name, const Sample& sample, Real first_potential) {
-  for (const HistoryFile& file : history_files())
+  for (const TextHistory& file : text_histories())
     if (file.name == name) return file.text(sample, first_potential);
   throw std::out_of_range("no history " + name);
 }

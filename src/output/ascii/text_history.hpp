@@ -20,7 +20,7 @@ struct HistoryTitles {
   std::vector<Legend> parts{}, contacts{}, nodes{}, rigid_walls{};
 };
 
-struct HistoryFile {
+struct TextHistory {
   std::string name{};  ///< of the file; *DATABASE_ and this in capitals ask for it
   /// One state; first_potential: potential energy at the first state [ML2/T2].
   std::function<std::string(const Sample& sample, Real first_potential)> text{};
@@ -29,12 +29,12 @@ struct HistoryFile {
 };
 
 /// By name.
-const std::vector<HistoryFile>& history_files();
+const std::vector<TextHistory>& text_histories();
 /// One state of a history of the registry. Throws std::out_of_range where there is none of that name.
 std::string history_text(const std::string& name, const Sample& sample, Real first_potential = 0);
 
-struct RegisterHistoryFile {
-  explicit RegisterHistoryFile(HistoryFile file);
+struct RegisterTextHistory {
+  explicit RegisterTextHistory(TextHistory file);
 };
 
 /// `{BEGIN LEGEND}` ... `{END LEGEND}`.
