@@ -423,7 +423,10 @@ class Run {
     if (summary_.termination == "interrupted") messag_.line(fmt::format(" *** {} ***", summary_.reason));
     for (const std::string& line : end_report(summary_)) messag_.line(line);
     const bool ok = summary_.termination != "error" && summary_.verdict != "broken";
-    messag_.banner(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
+    const bool whole = summary_.termination != "interrupted";
+    messag_.banner(!ok     ? " E r r o r    t e r m i n a t i o n"
+                   : whole ? " N o r m a l    t e r m i n a t i o n"
+                           : " I n t e r r u p t e d");
   }
 
   void choose_threads() {

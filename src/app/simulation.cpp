@@ -71,7 +71,7 @@ std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, cons
                                               RunPhase phase) {
   const double start = PassTimer::now();
   Deck deck = read_deck(deck_path, options, diagnostics);
-  if (diagnostics.ok()) move_included_entries(deck, diagnostics);
+  if (!diagnostics.broken()) move_included_entries(deck, diagnostics);
   const double read = PassTimer::now();
   auto s = from_deck(deck_path, std::move(deck), diagnostics, before, phase);
   if (!s) return s;
@@ -85,13 +85,12 @@ void Simulation::note_read_seconds(double reading, double building) {
   read_seconds_ = reading + building;
 }
 
-std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
-                                                  Diagnostics& diagnostics, const DeckRecord* before,
-                                                  RunPhase phase) {
+std::unique_ptr<Simulation> Simulation::from_read_deck(const std::string& deck_path, Deck deck,
+                                                       Diagnostics& diagnostics, const DeckRecord* before,
+                                                       RunPhase phase) {
   std::unique_ptr<Simulation> s(new Simulation);
   for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);
-  if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
   s->record_ = record_deck(s->deck_), s->world_.goes_on = before != nullptr;
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics, phase);
@@ -100,8 +99,8 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
   release_mesh_cards(s->deck_);
   number_contacts(s->deck_, diagnostics);
   s->injections_ = add_injected_particles(s->deck_, s->model_, diagnostics);
-  const bool model_is_whole = diagnostics.ok();
   s->build_parts(diagnostics);
+  const bool model_is_whole = diagnostics.errors() == 0;
   const bool bodies_move = s->bodies_ && s->bodies_->any_moves();
   const bool shells_deform = std::any_of(s->shells_.begin(), s->shells_.end(),
                                          [](const ShellPart& part) { return part.law != nullptr; });
@@ -141,6 +140,7 @@ void Simulation::build_parts(Diagnostics& diagnostics) {
   const auto discrete_beams = find_discrete_beam_parts(deck_, model_, diagnostics);
   const auto shell_material = [&](Index part, Index layup) -> std::optional<ShellMaterial> {
     if (const auto m = rigid_material(deck_, model_, part)) return ShellMaterial{m->ro, m->E, m->pr};
+    if (shells_[part].faulty) return ShellMaterial{1, 1, 0};  // which is told: nothing more of it
     if (!shells_[part].law) return std::nullopt;
     const ShellPart& shells = shells_[part].of(layup);
     const ElasticConstants of_laws = elastic_constants(shells);
@@ -235,7 +235,7 @@ void Simulation::add_passes(Diagnostics& diagnostics) {
   else
     report_what_needs_particles(diagnostics);
   add_prescribed_motions(diagnostics);
-  if (!add_rigid_walls(deck_, model_, world_, diagnostics))
+  if (!add_rigid_walls(deck_, model_, wall_penalty(), world_, diagnostics))
     left_out_.push_back({"rigid walls", "no *RIGIDWALL"});
   else if (sph_.xsph > 0 || sph_.velocity_smoothing > 0 || sph_.shift.strength > 0)
     diagnostics.warning({deck_.files[0].name},

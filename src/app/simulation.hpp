@@ -102,6 +102,9 @@ class Simulation {
   std::string passes_in_short() const;  ///< how many are active and left out, on one line
 
  private:
+  static std::unique_ptr<Simulation> from_read_deck(const std::string& deck_path, Deck deck,
+                                                    Diagnostics& diagnostics, const DeckRecord* before,
+                                                    RunPhase phase);
   Simulation() = default;
   void build_parts(Diagnostics& diagnostics);
   void add_tied_contacts(Diagnostics& diagnostics);
@@ -115,6 +118,7 @@ class Simulation {
   void report_what_needs_particles(Diagnostics& diagnostics);
   void add_node_passes(Diagnostics& diagnostics);
   void add_contacts_of_nodes(Diagnostics& diagnostics);
+  RigidWallPenalty wall_penalty();
   Real bulk_modulus(Index part) const;
   void add_rotations();
   void add_springs(Diagnostics& diagnostics);

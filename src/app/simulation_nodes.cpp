@@ -44,6 +44,7 @@ void warn_of_beams_that_touch_nothing(const Deck& deck, const Model& model, cons
 // Nodes of elements move by their forces; those of rigid bodies with these.
 void Simulation::add_node_passes(Diagnostics& diagnostics) {
   add_bodies();
+  if (bodies_) bodies_->set_damping(damping_);
   world_.passes.add(std::make_shared<MomentumWatch>(is_free_system(deck_, model_, bodies_.get())));
   for (const Addition& addition : additions()) addition.build(deck_, model_, world_, diagnostics);
   const bool bodies_move = bodies_ && bodies_->any_moves();
@@ -66,7 +67,11 @@ void Simulation::add_node_passes(Diagnostics& diagnostics) {
     world_.passes.add(sets);
   else
     left_out_.push_back({"node sets that move alike", "no *CONSTRAINED_NODE_SET"});
-  if (world_.groups.empty()) return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  if (world_.groups.empty()) {
+    if (const auto loads = make_nodal_loads(nodal_loads_, model_, points_of(world_.nodes), world_))
+      world_.passes.add(loads);
+    return left_out_.push_back({"solids", "no *ELEMENT_SOLID"});
+  }
   add_springs(diagnostics);
   const bool turn = has_rotations(world_.nodes);
   if (turn) world_.passes.add(make_clear_forces(rotations_of(world_.nodes)));
@@ -126,6 +131,14 @@ void Simulation::hold_massless_nodes(Diagnostics& diagnostics) {
                                fmt::format("node {} moves by its forces and has no mass", world_.nodes.id[n]),
                                "give it one by elements or *ELEMENT_MASS, or hold all of its translations");
     }
+}
+
+RigidWallPenalty Simulation::wall_penalty() {
+  RigidWallPenalty out;
+  if (bodies_) out.bodies = bodies_->wall_bodies(world_);
+  if (const auto* control = deck_.last<ControlContact>())
+    out.scale = std::abs(control->rwpnal), out.of_all_nodes = control->rwpnal < 0;
+  return out;
 }
 
 void Simulation::add_contacts_of_nodes(Diagnostics& diagnostics) {
