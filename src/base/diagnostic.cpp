@@ -35,11 +35,11 @@ std::string Diagnostic::text() const {
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {
-  if (diagnostic.severity == Severity::error) ++errors_;
+  if (diagnostic.severity == Severity::error) ++errors_, contained_ += diagnostic.contained;
   if (diagnostic.severity == Severity::warning && ++warnings_ > max_warnings) {
     if (warnings_ == max_warnings + 1) {
       note_of_more_ = all_.size();
-      all_.push_back({Severity::note, {diagnostic.where.file, 0, 0}, "", ""});
+      all_.push_back({Severity::note, {diagnostic.where.file, 0, 0}, "", "", false});
     }
     const int more = warnings_ - max_warnings;
     all_[note_of_more_].message = more == 1 ? std::string("1 more warning is not shown")
@@ -54,15 +54,15 @@ void Diagnostics::add(Diagnostic diagnostic) {
 }
 
 void Diagnostics::error(Location where, std::string message, std::string hint) {
-  add({Severity::error, std::move(where), std::move(message), std::move(hint)});
+  add({Severity::error, std::move(where), std::move(message), std::move(hint), false});
 }
 
 void Diagnostics::warning(Location where, std::string message, std::string hint) {
-  add({Severity::warning, std::move(where), std::move(message), std::move(hint)});
+  add({Severity::warning, std::move(where), std::move(message), std::move(hint), false});
 }
 
 void Diagnostics::note(Location where, std::string message, std::string hint) {
-  add({Severity::note, std::move(where), std::move(message), std::move(hint)});
+  add({Severity::note, std::move(where), std::move(message), std::move(hint), false});
 }
 
 std::string Diagnostics::text() const {

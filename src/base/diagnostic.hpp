@@ -23,6 +23,7 @@ struct Diagnostic {
   Location where;
   std::string message;
   std::string hint;
+  bool contained = false;  ///< an error beside which all else of the deck can still be judged
   std::string text() const;
 };
 
@@ -44,14 +45,19 @@ class Diagnostics {
   void amend(std::size_t index, const std::string& text) { all_[index].message += text; }
 
   const std::vector<Diagnostic>& all() const { return all_; }
-  int errors() const { return errors_; }
+  int errors() const { return errors_ - (aside_ ? contained_ : 0); }
   int warnings() const { return warnings_; }
-  bool ok() const { return errors_ == 0; }
+  bool ok() const { return errors() == 0; }
+  /// Whether there are errors that are not contained.
+  bool broken() const { return errors_ > contained_; }
+  /// Contained errors do not count until they are taken back: who builds the model goes on in spite of them.
+  void set_aside(bool aside) { aside_ = aside; }
   std::string text() const;  ///< all messages, one or two lines each, in the order they were found
 
  private:
   std::vector<Diagnostic> all_;
-  int errors_ = 0;
+  int errors_ = 0, contained_ = 0;
+  bool aside_ = false;
   int warnings_ = 0;
   std::size_t note_of_more_ = 0;  ///< index of the note about warnings that are not kept
 };

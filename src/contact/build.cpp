@@ -43,13 +43,15 @@ class ParticleContactBuilder {
   void refuse_for_particles(const ContactCard& c) {
     const auto refuse = [&](const char* field, const auto& value, bool given, const char* instead) {
       if (given)
-        deck_.error(diagnostics_, c, field,
-                    fmt::format("'{}' is not supported where SURFA has particles", value), instead);
+        deck_.refuse(diagnostics_, c, field,
+                     fmt::format("'{}' is not supported where SURFA has particles", value), instead);
     };
     refuse("SURFATYP", c.surfatyp, c.surfatyp == 0 || c.surfatyp == 1, "supported values: 2, 3, 4, 5, 6");
     refuse("SABOXID", c.saboxid, c.saboxid != 0, "name the particles by a node set");
     refuse("SBBOXID", c.sbboxid, c.sbboxid != 0, "give the faces a part of their own");
-    refuse("SOFT", c.soft, c.soft == 2, "supported values: 0, 1");
+    if (c.soft == 2)
+      deck_.warning(diagnostics_, c, "SOFT", "2 (faces on faces) runs as 1 for particles",
+                    "give 1 where that is meant");
     refuse("PENMAX", c.penmax, c.penmax > 0, "leave the field blank or 0");
     refuse("SLDTHK", c.sldthk, c.sldthk > 0, "give SBST, twice the distance at which particles touch");
     refuse("SLDSTF", c.sldstf, c.sldstf > 0, "scale the stiffness with SFSB");
@@ -79,7 +81,7 @@ class ParticleContactBuilder {
       if (goes_inside(c) || !is_hidden(s)) out.push_back(s);
     FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
     finder.leave_out_symmetric(c, out);
-    finder.are_stiff(c, out, c.soft == 1);
+    finder.are_stiff(c, out, c.soft != 0);
     return out;
   }
 
@@ -94,7 +96,7 @@ class ParticleContactBuilder {
     FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
     finder.with_inner(goes_inside(c));
     std::vector<Index> out = finder.faces(c, ContactSide::b);
-    finder.are_stiff(c, out, c.soft == 1);
+    finder.are_stiff(c, out, c.soft != 0);
     return out;
   }
 
@@ -153,7 +155,7 @@ ContactLaw law_of(const Deck& deck, const ContactCard& c) {
   law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
   law.vdc = c.vdc;
   law.birth = c.bt, law.death = c.dt;
-  law.soft = c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
+  law.soft = c.soft == 2 ? 1 : c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
   for (const LiteralPenalty& card : deck.all<LiteralPenalty>())
     law.literal = law.literal || card.cid == 0 || card.cid == law.id;
   return law;

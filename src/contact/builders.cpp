@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/cards.hpp"
 #include "contact/contact.hpp"
@@ -11,6 +12,7 @@
 #include "contact/tied/build.hpp"
 #include "extension/builders.hpp"
 #include "extension/part_values.hpp"
+#include "loads/walls/wall_penalty.hpp"
 
 namespace courant {
 
@@ -24,6 +26,11 @@ void ask_for_inner_faces(const Deck& deck, InnerFaces& faces) {
   const std::vector<ContactCard> contacts(deck.all<ContactCard>());
   faces.wanted = std::any_of(contacts.begin(), contacts.end(),
                              [](const ContactCard& c) { return kind_of(c).eroding && c.erosop == 1; });
+}
+
+void read_wall_penalty(const Deck& deck, RigidWallPenalty& penalty) {
+  if (const auto* control = deck.last<ControlContact>())
+    penalty.scale = std::abs(control->rwpnal), penalty.of_all_nodes = control->rwpnal < 0;
 }
 
 void tie(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
@@ -81,6 +88,7 @@ void add_contacts_of_nodes(const Deck& deck, const Model& model, World& world, D
 
 const RegisterBuilder numbers(BuildPhase::model, "numbers of contacts", number, Errors::go_on);
 const RegisterBuilder inner(BuildPhase::parts, "faces between elements", ask_for_inner_faces, Errors::go_on);
+const RegisterBuilder walls(BuildPhase::parts, "penalty of walls", read_wall_penalty, Errors::go_on);
 const RegisterBuilder ties(BuildPhase::ties, "tied contacts", tie);
 const RegisterBuilder find(BuildPhase::flow, "contacts of particles", find_contacts_of_particles);
 const RegisterBuilder add(BuildPhase::flow, "passes of contacts of particles", add_contacts_of_particles);

@@ -74,6 +74,7 @@ void make_shell_faces(const Deck& deck, const Model& model, World& world, Diagno
   const auto material = [&](Index part, Index layup) -> std::optional<ShellMaterial> {
     const auto k = static_cast<std::size_t>(part);
     if (const auto& m = rigid.of_part[k]) return ShellMaterial{m->ro, m->E, m->pr};
+    if (shells[k].faulty) return ShellMaterial{1, 1, 0};  // which is reported: nothing more of it
     if (!shells[k].law) return std::nullopt;
     const ShellPart& one = shells[k].of(layup);
     const ElasticConstants of_laws = elastic_constants(one);
@@ -173,7 +174,11 @@ void hold_massless_nodes(const Deck& deck, const Model& model, World& world, Dia
 void move_nodes(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                 LeftOut& left_out, const PointLoads& loads, const WallBodies& bodies, const ElementLaws& laws,
                 std::vector<SpringPart>& springs) {
-  if (world.groups.empty()) return left_out.add("solids", "no *ELEMENT_SOLID");
+  if (world.groups.empty()) {  // forces on nodes of bodies
+    if (const auto forces = make_nodal_loads(loads.nodal, model, points_of(world.nodes), world))
+      world.passes.add(forces);
+    return left_out.add("solids", "no *ELEMENT_SOLID");
+  }
   const bool alone = moves_all_by_bodies(world);
   if (springs.empty() && !alone)
     left_out.add("springs", "no *ELEMENT_DISCRETE");

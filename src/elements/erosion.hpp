@@ -36,12 +36,13 @@ struct FailureRules {
   int points = 1;                                ///< NUMFIP; < 0: per cent of all
   int law_points = 0;  ///< how many points the law must take away, of layers that differ; 0: all
   StrengthLaw::LeastStep least_step;  ///< of the law: an element with a smaller one goes
+  bool distorted = false;             ///< shells that turn inwards; who knows their places tells
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
   bool of_points() const;  ///< any but `small_step` and volume
   bool of_volume() const { return least_volume > 0 || most_volume < never; }
   bool of_step() const { return least_step.step > 0 || least_step.ratio > 0; }
-  bool any() const { return small_step || of_step() || of_volume() || of_points(); }
+  bool any() const { return distorted || small_step || of_step() || of_volume() || of_points(); }
 };
 
 /// By part of the model; `laws`: null where a part has no elements that deform. Cards for parts of particles

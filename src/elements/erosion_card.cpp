@@ -122,7 +122,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!laws[k]) continue;
     out[k].law_limit = laws[k]->failure_limit(), out[k].law_variable = laws[k]->failure_variable();
-    out[k].law_time = laws[k]->failure_time();
+    out[k].law_time = laws[k]->failure_time(), out[k].least_step = laws[k]->least_step();
     std::tie(out[k].least_volume, out[k].most_volume) = laws[k]->volume_range();
     if (const auto card = cards.find(model.parts[k].mid); card != cards.end()) {
       take_card(*card->second, out[k]);

@@ -137,6 +137,12 @@ std::string Deck::found_instead(IdSpace space, Id id) const {
   return fmt::format("it is a {}, defined at {}", keyword(it->second), place(it->second));
 }
 
+std::string Deck::first_name_of(IdSpace space, Id id) const {
+  const auto it = definitions_.find({space, id});
+  const KeywordSpec* spec = it == definitions_.end() ? nullptr : spec_of(it->second);
+  return spec ? std::string(spec->names.front()) : std::string();
+}
+
 std::string Deck::place(const Entry& entry) const {
   const Location at = where(entry);
   return fmt::format("{}:{}", at.file, at.line);
@@ -169,6 +175,13 @@ Diagnostic Deck::about(const Entry& entry, std::string_view field, const std::st
 void Deck::error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                  std::string hint) const {
   diagnostics.add(about(entry, field, message, std::move(hint)));
+}
+
+void Deck::refuse(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
+                  std::string hint) const {
+  Diagnostic refusal = about(entry, field, message, std::move(hint));
+  refusal.contained = true;
+  diagnostics.add(std::move(refusal));
 }
 
 void Deck::warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,

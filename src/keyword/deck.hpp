@@ -97,6 +97,9 @@ class Deck {
   /// Adds `file:line:column: error: *KEYWORD field N (NAME, meaning [dimension]): <message>` with a hint.
   void error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
              std::string hint = {}) const;
+  /// The same of a value that is not supported, beside which all else can still be judged (contained).
+  void refuse(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
+              std::string hint = {}) const;
   void warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                std::string hint = {}) const;
 
@@ -104,6 +107,8 @@ class Deck {
   const Entry* define(IdSpace space, Id id, const Entry& entry);
   /// For messages about a missing definition: "there is none", or "it is a *MAT_RIGID, defined at deck.k:12".
   std::string found_instead(IdSpace space, Id id) const;
+  /// First name of the keyword that defines an id, without *; empty: there is none.
+  std::string first_name_of(IdSpace space, Id id) const;
   std::string place(const Entry& entry) const;  ///< "deck.k:12"
 
   /// A place in one of the files, with the chain of files that include it.

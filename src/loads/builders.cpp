@@ -39,8 +39,11 @@ void move_points(const Deck& deck, const Model& model, World& world, Diagnostics
 }
 
 void put_up_walls(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
-                  LeftOut& left_out, const std::vector<PrescribedMotion>&, RigidWallsThere& walls) {
-  walls.any = add_rigid_walls(deck, model, world, diagnostics);
+                  LeftOut& left_out, const std::vector<PrescribedMotion>&, const WallBodies& bodies,
+                  const RigidWallPenalty& asked, RigidWallsThere& walls) {
+  RigidWallPenalty penalty = asked;
+  penalty.bodies = bodies;
+  walls.any = add_rigid_walls(deck, model, penalty, world, diagnostics);
   if (!walls.any) left_out.add("rigid walls", "no *RIGIDWALL");
 }
 

@@ -42,10 +42,7 @@ class DampingReader {
       if (part >= 0) parts_.insert(part);
       if (world.nodes.follow[i] == 2 && part >= 0) tied_parts_.insert(part);
       if (world.nodes.follow[i] != 1 || world.nodes.held[i] || part < 0) continue;
-      if (model.parts[static_cast<std::size_t>(part)].rigid)
-        rigid_parts_.insert(part);
-      else
-        ++joined_[part];
+      if (!model.parts[static_cast<std::size_t>(part)].rigid) ++joined_[part];
     }
   }
 
@@ -55,9 +52,6 @@ class DampingReader {
     if (d.scale.isZero(0) && d.turn_scale.isZero(0)) d.scale = d.turn_scale = Vec::Ones();
     if (card.lcid != 0) d.sf = 1;
     if (!read_curve(card, d)) return;
-    if (!rigid_parts_.empty() || !joined_.empty())
-      return error(card, "", "damping of rigid bodies is not supported, and there is one that can move",
-                   "name the other parts by *DAMPING_PART_MASS");
     damping_.push_back(std::move(d));
   }
   void add(const DampingPartMass& card) {
@@ -80,9 +74,6 @@ class DampingReader {
     warn_of_idle_parts(deck_, card, "PID", d.parts, model_, world_, diagnostics_);
     for (const Index p : d.parts) {
       const ModelPart& part = model_.parts[static_cast<std::size_t>(p)];
-      if (rigid_parts_.count(p) > 0)
-        return error(card, "PID", fmt::format("damping of rigid bodies is not supported: part {}", part.id),
-                     "name particles and deformable parts only");
       if (!seen_.insert(p).second)
         return error(card, "PID", fmt::format("part {} is damped twice", part.id), "name each part once");
       if (const auto joined = joined_.find(p); joined != joined_.end())
@@ -127,7 +118,6 @@ class DampingReader {
   const Model& model_;
   const World& world_;
   Diagnostics& diagnostics_;
-  std::set<Index> rigid_parts_;         ///< with nodes of bodies that can move
   std::set<Index> parts_, tied_parts_;  ///< with nodes, with such that faces carry
   std::map<Index, Index> joined_;       // nodes of deformable parts that rigid bodies move
   std::set<Index> seen_;

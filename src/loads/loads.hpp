@@ -1,13 +1,16 @@
 #pragma once
 // Loads and constraints for all that moves: each is one file, written once for Points. `points`: particles
 // while they stand in the order of the model, or nodes.
+#include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "extension/left_out.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
+#include "loads/wall_penalty.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
@@ -56,6 +59,8 @@ struct NodalLoad {
   std::vector<Index> nodes{};   ///< indices into Model::nodes
   Entry card{};                 ///< for messages
   bool turns = false;           ///< a moment about `direction`, on rotations [ML2/T2]
+  /// Of World::nodes: it acts along their normal, wherever they go; nothing: along `direction`.
+  std::optional<std::array<Index, 3>> follows{};
 };
 /// Refuses by name: follower loads, moments where nothing turns, systems that move, nodes that are neither
 /// particles nor move by their forces.
@@ -78,7 +83,7 @@ struct Damping {
   std::vector<Index> parts{};                         ///< sorted; empty: all
   Real at(Real t) const { return curve.abscissa.empty() ? sf : sf * curve(t); }
 };
-/// Refuses by name: rigid bodies, parts that are named twice, constants below 0.
+/// Refuses by name: parts that are named twice, constants below 0.
 std::vector<Damping> damping_of(const Deck& deck, const Model& model, const World& world,
                                 Diagnostics& diagnostics);
 /// f -= c m v, with the v of the middle of the kick. nullptr where there is none.
@@ -99,10 +104,11 @@ void add_loads(const Points& points, const Deck& deck, const Model& model, const
 std::shared_ptr<Drive> make_slow_points(Points points, Real factor);
 
 /// *RIGIDWALL_PLANAR and _GEOMETRIC: adds a pass for each wall, which holds particles and nodes of deformable
-/// elements; false if there is none. Behind add_prescribed_points. Refuses by name: sets, boxes and curves
-/// that are not there, nodes of rigid bodies that NSID names, normals, edges and motions without a direction
+/// elements, and pushes rigid bodies by `penalty`; false if there is none. Behind add_prescribed_points.
+/// Refuses by name: sets, boxes and curves that are not there, normals, edges and motions without a direction
 /// or, in 2D, out of the plane, other kinds of friction, displacements that jump or do not begin with 0.
-bool add_rigid_walls(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics);
+bool add_rigid_walls(const Deck& deck, const Model& model, const RigidWallPenalty& penalty, World& world,
+                     Diagnostics& diagnostics);
 
 /// Whether there is a rigid wall.
 struct RigidWallsThere {

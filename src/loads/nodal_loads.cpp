@@ -45,7 +45,7 @@ class NodalLoadReader {
     const std::set<Id> hand_on = interpolated_nodes(deck);
     for (Index i = 0; i < nodes.size(); ++i)
       if (const auto n = node_of_id_.find(nodes.id[i]);
-          n != node_of_id_.end() && (!nodes.follow[i] || hand_on.contains(nodes.id[i])))
+          n != node_of_id_.end() && (nodes.follow[i] < 2 || hand_on.contains(nodes.id[i])))
         is_loaded_[static_cast<std::size_t>(n->second)] = 1;
     turns_.assign(model.nodes.size(), 0);
     const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
@@ -59,8 +59,8 @@ class NodalLoadReader {
     const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
     if (!curve) return;
     load.curve = *curve;
-    if (!read_direction(card, load.direction)) return;
-    load.turns = card.dof > 3;
+    if (card.dof == follower ? !read_follower(card, load) : !read_direction(card, load.direction)) return;
+    load.turns = card.dof > follower;
     for (const Index n : load.nodes)
       if (load.turns && !turns_[static_cast<std::size_t>(n)])
         return error(card, field,
@@ -69,7 +69,7 @@ class NodalLoadReader {
                      "leave it out");
       else if (!is_loaded_[static_cast<std::size_t>(n)])
         return error(card, field,
-                     fmt::format("node {} is neither a particle nor a node of deformable elements, on which "
+                     fmt::format("node {} is neither a particle nor a node of elements or bodies, on which "
                                  "alone forces act",
                                  model_.nodes[static_cast<std::size_t>(n)].id),
                      "leave it out");
@@ -95,16 +95,41 @@ class NodalLoadReader {
     deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
   }
 
+  /// DOF 4: along the normal of M1, M2, M3, at right hand.
+  bool read_follower(const LoadNodeCard& card, NodalLoad& load) {
+    load.follows.emplace();
+    std::size_t k = 0;
+    std::array<Vec, 3> x;
+    for (const auto& [field, id] :
+         {std::pair("M1", card.m1), std::pair("M2", card.m2), std::pair("M3", card.m3)}) {
+      Index at = -1;
+      for (Index i = 0; i < world_.nodes.size(); ++i)
+        if (world_.nodes.id[i] == id) at = i;
+      if (at < 0) {
+        error(card, field, fmt::format("node {} belongs to no element or body", id),
+              "the normal of M1, M2, M3 is the direction: name nodes that move");
+        return false;
+      }
+      x[k] = world_.nodes.x.vec(at), (*load.follows)[k++] = at;
+    }
+    const Vec a = x[1] - x[0], b = x[2] - x[0];
+    constexpr Real least_sine = 1e-6;
+    if (!(a.cross(b).norm() > least_sine * a.norm() * b.norm())) {
+      error(card, "M3", "M1, M2 and M3 lie on a line: they have no normal", "name nodes of a triangle");
+      return false;
+    }
+    return true;
+  }
+
   bool read_direction(const LoadNodeCard& card, Vec& direction) {
     const int size = std::abs(card.dof);
     const bool moment = card.dof >= 5 && card.dof <= 7 && has_rotations_;
     if ((card.dof < 1 || card.dof > 3) && !moment) {
       error(card, "DOF",
-            size == 4 || size == 8
-                ? fmt::format("a load that follows its nodes (DOF {}) is not supported", card.dof)
+            size == 8 ? fmt::format("a moment that follows its nodes (DOF {}) is not supported", card.dof)
             : size >= 5 && size <= 7 ? fmt::format("a moment (DOF {}) is not supported", card.dof)
                                      : fmt::format("expected 1, 2 or 3, got '{}'", card.dof),
-            "use DOF 1, 2, 3: a force along x, y, z");
+            "use DOF 1, 2, 3: a force along x, y, z; 4 follows M1, M2, M3");
       return false;
     }
     Matrix axes = Matrix::Identity();
@@ -126,6 +151,7 @@ class NodalLoadReader {
     return false;
   }
 
+  static constexpr int follower = 4;
   const Deck& deck_;
   const Model& model_;
   const World& world_;
@@ -145,17 +171,22 @@ class NodalForces : public Force, public EnergyTerm {
       : loads_(std::move(loads)), groups_(std::move(groups)), points_(points), group_(group) {}
   std::string name() const override { return "forces on " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
-  void declare(const World&, Accesses& a) const override { a.updates(*points_.f).reads(group_); }
+  void declare(const World& world, Accesses& a) const override {
+    a.updates(*points_.f).reads(group_);
+    if (std::any_of(loads_.begin(), loads_.end(), [](const NodalLoad& load) { return load.follows; }))
+      a.in_start().reads(world.nodes.x, Reach::others);
+  }
 
-  void start(World&, const Clock& clock) override {
+  void start(World& world, const Clock& clock) override {
     forces_.assign(groups_.size(), Vec::Zero());
     means_.assign(groups_.size(), Vec::Zero());
     for (std::size_t g = 0; g < groups_.size(); ++g)
       for (const std::size_t k : groups_[g]) {
         const NodalLoad& load = loads_[k];
         const Real now = load.curve(clock.t), before = load.curve(clock.t - clock.dt_old);
-        forces_[g] += load.sf * now * load.direction;
-        means_[g] += load.sf * 0.5 * (now + before) * load.direction;
+        const Vec along = direction_of(load, world);
+        forces_[g] += load.sf * now * along;
+        means_[g] += load.sf * 0.5 * (now + before) * along;
       }
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -178,6 +209,11 @@ class NodalForces : public Force, public EnergyTerm {
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
  private:
+  static Vec direction_of(const NodalLoad& load, const World& world) {
+    if (!load.follows) return load.direction;
+    const auto x = [&](std::size_t k) { return world.nodes.x.vec((*load.follows)[k]); };
+    return Vec(x(1) - x(0)).cross(Vec(x(2) - x(0))).normalized();
+  }
   const Vec& force(Index i) const { return forces_[static_cast<std::size_t>(group_[i])]; }
   std::vector<NodalLoad> loads_;
   std::vector<Loads> groups_;  ///< the first one is empty
@@ -195,7 +231,7 @@ std::string keep_force_axes(LoadNodeCard& card, const Affine& motion) {
   return "its direction is an axis, which a transformation that turns or stretches the file would change";
 }
 CurveOf curve_of_force(const LoadNodeCard& card) {
-  return {"T", card.dof > 3 ? "ML2/T2" : "ML/T2"};
+  return {"T", std::abs(card.dof) > 4 ? "ML2/T2" : "ML/T2"};
 }
 
 std::vector<NodalLoad> nodal_loads(const Deck& deck, const Model& model, const World& world,
@@ -222,8 +258,7 @@ std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, con
   std::vector<Loads> groups{Loads()};
   for (std::size_t i = 0; i < node.size(); ++i) {
     const Index follows = points.follow ? (*points.follow)[static_cast<Index>(i)] : 0;
-    constexpr Index by_body = 1;
-    if (node[i] < 0 || (points.turns ? follows != 0 : follows == by_body)) continue;
+    if (node[i] < 0 || (points.turns && follows != 0)) continue;
     const Loads& mine = loads_of[static_cast<std::size_t>(node[i])];
     const auto [it, is_new] = known.try_emplace(mine, static_cast<Index>(groups.size()));
     if (is_new) groups.push_back(mine);

@@ -190,6 +190,8 @@ struct HistoryNode {
   Id id = 0;
   Vec X = Vec::Zero();  ///< place at t = 0 [L]
   std::string title{};
+  /// Of an accelerometer: local x from the node to the first of these, y towards the second. 0: none.
+  std::array<Id, 2> axes{};
 };
 
 /// What goes into the field files, and how: *COURANT_OUTPUT, *DATABASE_EXTENT_BINARY. Zero or empty: not

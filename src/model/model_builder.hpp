@@ -50,6 +50,7 @@ class ModelBuilder {
   void build_histories();
   void build_history_sph();
   void build_history_node();
+  void build_accelerometers();
   static constexpr Real most_due = 1e15;  ///< of intervals until ENDTIM: their times differ
   void check_curve(const Entry& card, std::string_view field, const Curve& curve);
   void check_interval(const Entry& card, std::string_view field, Real interval, Real most);

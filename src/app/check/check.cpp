@@ -44,7 +44,7 @@ CheckResult check_deck(const std::string& path, const ReadOptions& options, bool
   CheckResult result;
   Diagnostics diagnostics;
   Deck deck = read_deck(path, options, diagnostics);
-  if (diagnostics.ok()) move_included_entries(deck, diagnostics);
+  if (!diagnostics.broken()) move_included_entries(deck, diagnostics);
   const DeckFacts facts = gather_facts(deck);
   const UnusedIds unused = find_unused_ids(deck);
   const std::string needs = needs_text(deck, facts), unused_ids = unused_text(deck, unused);

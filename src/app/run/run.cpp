@@ -419,10 +419,12 @@ class Run {
 
   void print_end() {
     if (!failure_.empty()) messag_.line(failure_);
-    if (summary_.termination == "interrupted") messag_.line(fmt::format(" *** {} ***", summary_.reason));
+    const bool cut = summary_.termination == "interrupted";
+    if (cut) messag_.line(fmt::format(" *** {} ***", summary_.reason));
     for (const std::string& line : end_report(summary_)) messag_.line(line);
+    const char* const whole = cut ? " I n t e r r u p t e d" : " N o r m a l    t e r m i n a t i o n";
     const bool ok = summary_.termination != "error" && summary_.verdict != "broken";
-    messag_.banner(ok ? " N o r m a l    t e r m i n a t i o n" : " E r r o r    t e r m i n a t i o n");
+    messag_.banner(ok ? whole : " E r r o r    t e r m i n a t i o n");
   }
 
   void choose_threads() {
@@ -448,7 +450,6 @@ class Run {
   double seconds_left() const {
     return (PassTimer::now() - start_) * std::max(0.0, end_ - s_.clock().t) / (s_.clock().t - first_time_);
   }
-
   Simulation& s_;
   const RunOptions& options_;
   Real end_;

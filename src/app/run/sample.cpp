@@ -66,6 +66,22 @@ void follow(const RigidBodyMotion& body, NodeSample& node) {
   node.rotation = body.rotation, node.omega = body.omega, node.angular_a = body.angular_a;
 }
 
+/// Rows: the axes of an accelerometer.
+Matrix local_axes(const HistoryNode& one, const Vec& x, const World& world) {
+  std::array<Vec, 2> to{Vec::UnitX(), Vec::UnitY()};
+  for (Index n = 0; n < world.nodes.size(); ++n)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (world.nodes.id[n] == one.axes[k]) to[k] = world.nodes.x.vec(n) - x;
+  Matrix axes;
+  axes.row(0) = to[0].normalized();
+  axes.row(2) = to[0].cross(to[1]).normalized();
+  axes.row(1) = Vec(axes.row(2)).cross(Vec(axes.row(0)));
+  return axes;
+}
+void turn_to(const Matrix& axes, NodeSample& node) {
+  for (Vec* v : {&node.v, &node.a, &node.omega, &node.angular_a}) *v = axes * *v;
+}
+
 void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, const RigidBodies* bodies,
                   const Clock& clock, Sample& s) {
   if (wanted.empty()) return;
@@ -95,6 +111,7 @@ void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, co
         node.a = (world.nodes.f.vec(n) + force_on(s.boundary_forces, one.id)) / world.nodes.m[n];
     }
     node.displacement = node.x - one.X;
+    if (one.axes[0] != 0) turn_to(local_axes(one, node.x, world), node);
     s.nodes.push_back(node);
   }
 }

@@ -39,7 +39,7 @@ std::unique_ptr<Simulation> Simulation::build(const std::string& deck_path, cons
                                               RunPhase phase) {
   const double start = PassTimer::now();
   Deck deck = read_deck(deck_path, options, diagnostics);
-  if (diagnostics.ok()) move_included_entries(deck, diagnostics);
+  if (!diagnostics.broken()) move_included_entries(deck, diagnostics);
   const double read = PassTimer::now();
   auto s = from_deck(deck_path, std::move(deck), diagnostics, before, phase);
   if (!s) return s;
@@ -53,13 +53,27 @@ void Simulation::note_read_seconds(double reading, double building) {
   read_seconds_ = reading + building;
 }
 
+// What is wrong in the rest of a deck with errors that say nothing of it is reported in the same go.
 std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, Deck deck,
+                                                  Diagnostics& diagnostics, const DeckRecord* before,
+                                                  RunPhase phase) {
+  if (diagnostics.broken()) return nullptr;  // what could not be read would only cause more messages
+  Diagnostics rest;                          // of a deck that is refused already: its errors alone
+  Diagnostics& told = diagnostics.ok() ? diagnostics : rest;
+  told.set_aside(true);
+  auto s = from_read_deck(deck_path, std::move(deck), told, before, phase);
+  told.set_aside(false);
+  for (const Diagnostic& one : rest.all())
+    if (one.severity == Severity::error) diagnostics.add(one);
+  return diagnostics.ok() ? std::move(s) : nullptr;
+}
+
+std::unique_ptr<Simulation> Simulation::from_read_deck(const std::string& deck_path, Deck deck,
                                                   Diagnostics& diagnostics, const DeckRecord* before,
                                                   RunPhase phase) {
   std::unique_ptr<Simulation> s(new Simulation);
   for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);
-  if (!diagnostics.ok()) return nullptr;  // what could not be read or moved would only cause more messages
   s->record_ = record_deck(s->deck_), s->world_.goes_on = before != nullptr;
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics, phase);
@@ -77,9 +91,8 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
 void Simulation::build_world(const std::string& deck_path, Diagnostics& diagnostics) {
   assembly_.lend(deck_), assembly_.lend(model_), assembly_.lend(world_), assembly_.lend(diagnostics);
   for (const ModelPart& part : model_.parts) world_.part_ids.push_back(part.id);
-  courant::build(assembly_, BuildPhase::model, BuildPhase::model);
+  courant::build(assembly_, BuildPhase::model, BuildPhase::settings);
   const bool model_is_whole = diagnostics.ok();
-  courant::build(assembly_, BuildPhase::parts, BuildPhase::settings);
   if (model_is_whole && !get<Movers>().any)
     diagnostics.error(
         {deck_path, 0, 0},

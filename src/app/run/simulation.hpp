@@ -89,6 +89,9 @@ class Simulation {
   std::string passes_in_short() const;  ///< how many are active and left out, on one line
 
  private:
+  static std::unique_ptr<Simulation> from_read_deck(const std::string& deck_path, Deck deck,
+                                                    Diagnostics& diagnostics, const DeckRecord* before,
+                                                    RunPhase phase);
   Simulation() = default;
   void build_world(const std::string& deck_path, Diagnostics& diagnostics);
   void note_read_seconds(double reading, double building);

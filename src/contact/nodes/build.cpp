@@ -104,6 +104,10 @@ class NodeContactBuilder {
                     asks_for_edges(c) ? "2 (faces on faces) runs as 1 (nodes on faces, edges on edges)"
                                       : "2 (faces on faces) runs as 1 (nodes on faces)",
                     "give 1 where that is meant");
+    const auto* control = deck_.last<ControlContact>();
+    if (c.soft == 2 && (c.shledg == 1 || (c.shledg == 0 && control && control->shledg == 1)))
+      deck_.warning(diagnostics_, c, "SHLEDG", "1 asks for square edges of shells: they are round",
+                    "0 says the same without this warning");
     const auto without_effect = [&](const char* field, bool given, const char* why) {
       if (given)
         deck_.warning(diagnostics_, c, field, fmt::format("has no effect: {}", why), "leave it blank");
@@ -128,10 +132,13 @@ class NodeContactBuilder {
                          "leave it out, or name other parts");
   }
 
-  // A face without thickness has no two sides that could be told apart.
+  // Between a node and a face that both have no thickness two sides cannot be told apart.
   bool shells_have_thickness(const ContactCard& c, const ContactKind& kind, const ContactSides& sides) {
+    const bool nodes_have = std::all_of(sides.nodes.begin(), sides.nodes.end(), [&](const ContactNode& n) {
+      return n.r > 0 || options_.bodies.body(n.node) >= 0;
+    });
     for (const ContactFace& f : sides.faces) {
-      if (!f.two_sided || f.r > 0) continue;
+      if (!f.two_sided || f.r > 0 || (kind.automatic && nodes_have)) continue;
       diagnostics_.error(
           deck_.where(c),
           fmt::format("{}: the shells of part {} count without their thickness here, which is not supported",

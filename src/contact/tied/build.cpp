@@ -188,6 +188,8 @@ class TiedBuilder {
       error(c, "", "tied contact needs a scene of three dimensions", "leave it out");
       return false;
     }
+    if (c.bt > 0 && c.bt < model_.endtim)
+      error(c, "BT", "what is tied is so from the start", "leave it blank");
     const std::vector<Index> faces_a =
         of_elements ? std::vector<Index>{} : finder_.faces(c, ContactSide::a, false);
     const std::vector<Index> faces_b = finder_.faces(c, ContactSide::b, false);
@@ -236,7 +238,7 @@ class TiedBuilder {
     for (const auto& group : world_.groups)
       if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
     const int errors = diagnostics_.errors();
-    if (c.dt < 1e20) error(c, "DT", "nodes that are tied exactly stay so to the end", springs);
+    if (c.dt < model_.endtim) error(c, "DT", "nodes that are tied exactly stay so to the end", springs);
     if (options_.mass_grows && !of_beams(ties))
       error(c, "", "nodes that are tied exactly get no mass from mass scaling (DT2MS) once the run goes on",
             "give MS1ST 1, or use the contact with _OFFSET");

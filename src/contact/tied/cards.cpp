@@ -45,7 +45,7 @@ KeywordOf<TC> tied_keyword() {
     change(out, name, "of contacts that are not tied", no_effect);
   for (const char* name : {"FSF", "VSF"}) change(out, name, nullptr, no_effect_but(1));
   change(out, "PENCHK", nullptr, no_effect);
-  change(out, "BT", nullptr, unsupported);
+  change(out, "BT", "birth time: from the start", {});
   change(out, "DT", "death time, of springs (_OFFSET, _FAILURE)",
          {.standard = 1e20, .check = Check::positive});
   change(out, "SAST", "thickness of shells of SURFA, 0: of the section; < 0, or SBST < 0: largest distance",

@@ -8,6 +8,7 @@
 #include "elements/shell/cards_shell.hpp"
 #include "elements/shell/hourglass_shell.hpp"
 #include "elements/shell/layers.hpp"
+#include "elements/shell/shell_element_cards.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/shell_faces/section_shell.hpp"
 #include "laws/fluid/mat_null.hpp"
@@ -85,11 +86,32 @@ class ShellReader {
     ShellControl& c = out.control;
     if (whole) set_moduli(out, c);
     c.shear_factor = is_membrane(s) ? 0 : s.shrf;
-    c.thins = control_ && control_->istupd == 1;
+    if (control_) set_control(part, *control_, out);
     c.warps = control_ && control_->bwc == 1 && !out.full;
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
     if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
     hourglass_.read(part, out.full, c, diagnostics_);
+  }
+  void set_control(const ModelPart& part, const ControlShell& card, ShellPart& out) {
+    constexpr int of_flow = 4, thick_alone = 2;
+    const bool named =
+        card.psstupd == 0 || (in_set(part, card, "PSSTUPD", card.psstupd) == (card.psstupd > 0));
+    out.control.thins = named && card.istupd != 0 && card.istupd != thick_alone;
+    out.thins_by_flow = card.istupd == of_flow;
+    const int asked = out.full ? card.nfail4 : card.nfail1;
+    out.deletes_distorted = asked == 1 && (card.psnfail == 0 || in_set(part, card, "PSNFAIL", card.psnfail));
+  }
+  /// Whether a part set, or one with a minus sign, holds the part.
+  bool in_set(const ModelPart& part, const ControlShell& card, const char* field, Id id) {
+    const auto set = model_.part_sets.find(std::abs(id));
+    if (set == model_.part_sets.end()) {
+      if (missing_.insert(field).second)
+        error(card, field, fmt::format("part set {} does not exist", std::abs(id)),
+              "define it with *SET_PART");
+      return false;
+    }
+    const auto index = static_cast<Index>(&part - model_.parts.data());
+    return std::find(set->second.begin(), set->second.end(), index) != set->second.end();
   }
   /// Of layers the stiffest: by it the step is bounded.
   static void set_moduli(const ShellPart& part, ShellControl& c) {
@@ -172,6 +194,17 @@ class ShellReader {
            });
   }
 
+  /// Layers of several materials.
+  bool has_layers() const {
+    return std::any_of(model_.parts.begin(), model_.parts.end(),
+                       [](const ModelPart& part) {
+                         return part.has_shell &&
+                                std::any_of(part.plies.begin(), part.plies.end(), [&](const ModelPly& ply) {
+                                  return ply.mid != part.plies.front().mid;
+                                });
+                       }) ||
+           !model_.layups.empty() || !deck_.all<IntegrationShell>().empty();
+  }
   bool has_offsets() const {
     const auto deforms = [&](Index shell) {
       return !model_.parts[static_cast<std::size_t>(model_.shells[static_cast<std::size_t>(shell)].part)]
@@ -198,26 +231,33 @@ class ShellReader {
   void check_control(const ControlShell& c) {
     const auto refuse = [&](const char* field, bool wrong, Real value, const char* what) {
       if (wrong)
-        error(c, field, fmt::format("'{:g}' is not supported: {}", value, what), "leave the field blank");
+        deck_.refuse(diagnostics_, c, field, fmt::format("'{:g}' is not supported: {}", value, what),
+                     "leave the field blank");
     };
     if (c.esort == 2)
       deck_.warning(diagnostics_, c, "ESORT",
                     "2 asks for discrete Kirchhoff triangles (17): 4 is used in their place",
                     "1 says the same without this warning");
     refuse("ESORT", c.esort < 0 || c.esort > 2, c.esort, "triangles are of formulation 4 (0 and 1)");
-    refuse("ISTUPD", c.istupd != 0 && c.istupd != 1, c.istupd,
-           "the thickness stays (0) or follows all of the strain (1)");
+    refuse("ISTUPD", c.istupd < 0 || c.istupd > 4, c.istupd,
+           "the thickness stays (0), or follows all of the strain (1) or its plastic part (4)");
     refuse("BWC", c.bwc != 1 && c.bwc != 2, c.bwc, "shells of ELFORM 2 heed their warp (1) or do not (2)");
     refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
     refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
     refuse("INTGRD", c.intgrd != 0 && c.intgrd != 1, c.intgrd, "points are of Gauss (0) or Lobatto (1)");
-    refuse("LAMSHT", c.lamsht != 0, c.lamsht, "transverse shear is the same in all layers");
-    refuse("PSSTUPD", c.psstupd != 0, static_cast<Real>(c.psstupd), "ISTUPD holds for all parts");
+    refuse("LAMSHT", c.lamsht != 0 && has_layers(), c.lamsht,
+           "transverse shear is the same in all layers, and these differ");
     refuse("SIDT4TU", c.sidt4tu != 0, c.sidt4tu, "ISTUPD holds for all parts");
     refuse("W-MODE", c.wmode != 0, c.wmode, "no shell is deleted");
     refuse("STRETCH", c.stretch != 0, c.stretch, "no shell is deleted");
     refuse("ICRQ", c.icrq != 0, c.icrq, "each shell has one thickness");
-    refuse("NFAIL1", c.nfail1 != 0, c.nfail1, "no shell is deleted");
+    for (const auto& [field, value] : {std::pair("NFAIL1", c.nfail1), std::pair("NFAIL4", c.nfail4)})
+      refuse(field, value < 0 || value > 2, value, "distorted shells stay (0), go (1) or end the run (2)");
+    if (c.nfail1 == 2 || c.nfail4 == 2)
+      deck_.warning(
+          diagnostics_, c, c.nfail1 == 2 ? "NFAIL1" : "NFAIL4",
+          "2 ends the run at a distorted shell: it goes on here, and stops where energy does not close",
+          "1 deletes them");
     refuse("CNTCO", c.cntco != 0 && has_offsets(), c.cntco,
            "contact takes shells with an offset as if their middle were at the nodes");
     refuse("DRCPSID", c.drcpsid != 0, static_cast<Real>(c.drcpsid), "rotations about the normal are free");
@@ -231,6 +271,7 @@ class ShellReader {
   ShellSections sections_;
   LayerReader layers_;
   std::set<const SectionShell*> checked_;  ///< several parts may name one
+  std::set<std::string> missing_;          ///< sets that do not exist, by field
 };
 
 ElasticConstants constants_of(Real K, Real G) {
@@ -288,6 +329,16 @@ ShellPart read_part(ShellReader& reader, const Model& model, std::size_t k, bool
 
 }  // namespace
 
+namespace {
+
+bool has_strength_card(const Deck& deck, Id mid) {
+  const std::string name = deck.first_name_of(IdSpace::material, mid);
+  return std::any_of(strength_registry().begin(), strength_registry().end(),
+                     [&](const StrengthEntry& kind) { return kind.keyword == name; });
+}
+
+}  // namespace
+
 std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::vector<ShellPart> out(model.parts.size());
   std::vector<std::size_t> deforming;
@@ -305,7 +356,10 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
   const int errors = diagnostics.errors();
   if (!solids)  // which check them, too
     for (const StrengthEntry& kind : strength_registry()) kind.check(deck, model, diagnostics);
-  if (diagnostics.errors() > errors) return out;  // a law is made from valid cards
+  if (diagnostics.errors() > errors) {  // a law is made from valid cards
+    for (const std::size_t k : deforming) out[k].faulty = has_strength_card(deck, model.parts[k].mid);
+    return out;
+  }
   ShellReader reader(deck, model, diagnostics);
   const std::vector<bool> by_part = parts_with_own_layers(model);
   for (const std::size_t k : deforming) out[k] = read_part(reader, model, k, by_part[k]);

@@ -6,8 +6,7 @@ namespace courant {
 
 namespace {
 
-constexpr int last_viscous_kind = 3, last_stiffness_kind = 5;
-constexpr int with_warping = 8;
+constexpr int last_viscous_kind = 3, last_common_kind = 5, last_stiffness_kind = 6, last_kind = 10;
 constexpr Real usual_drilling = 0.01;  ///< of G t (A + t^2)/4: much more stiffens coarse meshes
 constexpr Real usual_coefficient = 0.1;
 constexpr Real largest_advised = 0.15;  ///< LS-DYNA's advice: above it hourglass forces may be unstable
@@ -51,14 +50,19 @@ void ShellHourglassReader::read(const ModelPart& part, bool full, ShellControl& 
 
 void ShellHourglassReader::take_kind(const Entry& card, int ihq, const ModelPart& part, bool full,
                                      ShellControl& out, Diagnostics& diagnostics) {
-  if (full && ihq == with_warping) return;
+  if (full && ihq > last_common_kind) return;  // of other elements, or 8, which is usual
   if (full) out.drilling = 0;
-  if (ihq > 0 && ihq <= last_stiffness_kind) {
-    out.stiffness = ihq > last_viscous_kind;
-  } else if (told_.insert({&card, "IHQ"}).second) {
-    deck_.error(diagnostics, card, "IHQ",
-                fmt::format("'{}' is not supported for shells, as those of part {}", ihq, part.id),
-                "supported values: 0, 1 to 3 (viscous), 4 and 5 (stiffness), 8 with ELFORM 16");
+  out.stiffness = ihq > last_viscous_kind;
+  if (full || (ihq > 0 && ihq <= last_stiffness_kind) || !told_.insert({&card, "IHQ"}).second) return;
+  if (ihq > last_stiffness_kind && ihq <= last_kind) {
+    deck_.warning(
+        diagnostics, card, "IHQ",
+        fmt::format("{} is of other elements: the shells of part {} take 4 (stiffness)", ihq, part.id),
+        "give their part a *HOURGLASS of its own");
+  } else {
+    deck_.refuse(diagnostics, card, "IHQ",
+                 fmt::format("'{}' is not supported for shells, as those of part {}", ihq, part.id),
+                 "supported values: 0, 1 to 3 (viscous), 4 to 10 (stiffness; 8 with ELFORM 16: of warping)");
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/null_elements.hpp"
+#include "elements/shell/distortion.hpp"
 #include "elements/shell/facets.hpp"
 #include "elements/shell/flow_stress.hpp"
 #include "elements/shell/layer_axes.hpp"
@@ -65,7 +66,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       viscous_ = &group.fields.add<Real>({.name = "bulk_viscosity_force", .dimension = "M/T2"});
     offset_ = offset_of_shells(group);
     if (part.has_axes()) directions_ = &layer_directions_of(group, layers_.size());
-    fails_with_all_ = part.fails_with_all;
+    fails_with_all_ = part.fails_with_all, thins_by_flow_ = part.thins_by_flow;
     stiffens_ = std::any_of(layers_.begin(), layers_.end(), [](const Layer& l) { return l.law->stiffens(); });
     for (int p = 0; p < state_.points; ++p)
       for (const HistoryVariable& h : layer_of(p).law->history())
@@ -76,7 +77,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     limit_to_frequency(held, world);
     if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0)
       damping_ = std::make_unique<StiffnessDamping>(coef, group_, state_.points, 0);
-    const FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
+    FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
+    rules.distorted = part.deletes_distorted;
     if (rules.any()) options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
   std::string name() const override { return group_.fields.name(); }
@@ -130,6 +132,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
     if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
+    if (erosion_ && erosion_->rules().distorted) take_distorted(begin, count);
     if (erosion_)
       erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr,
                       {scratch.corner_force, scratch.corner_moment, clock.dt_old});
@@ -197,6 +200,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     std::fill(scratch.thickening, scratch.thickening + block.count, 0);
     std::fill(faster, faster + block.count, 1);
     std::optional<FlowStress> flow;
+    FlowThinning thinning;
     if (flow_stress_) flow.emplace(block.count);
     std::array<Real*, most_history> history{};
     std::size_t numbers = 0, first = 0;
@@ -211,6 +215,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       first += numbers, numbers = layer.numbers;
       for (std::size_t k = 0; k < numbers; ++k) history[k] = history_data_[first + k] + begin;
       points.history = std::span<Real* const>(history.data(), numbers);
+      if (thins_by_flow_) thinning.before(points);
       if (flow && layer.plastic >= 0) flow->before(history[static_cast<std::size_t>(layer.plastic)]);
       if (layer.law->axes())
         update_along_axes(*layer.law, directions_->data(2 * (p % layers())) + begin,
@@ -222,6 +227,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
         for (Index i = 0; i < block.count; ++i)
           faster[i] = std::max(faster[i], sound_speed[i] / layer.law->sound_speed());
       if (failing) look_at_point(p, begin, *failing, points, rate_zz);
+      if (thins_by_flow_) thinning.after(points, *layer.law, layer.plastic >= 0, rate_zz);
       if (damping_) damping_->add_in_plane(*layer.law, p, points, begin);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
     }
@@ -259,6 +265,16 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       failing.law_limit = layer.law->failure_limit();
     }
     erosion_->look(failing);
+  }
+
+  void take_distorted(Index begin, Index count) const {
+    for (Index e = begin; group_.corners() == 4 && e < begin + count; ++e) {
+      if (erosion_->dead(e)) continue;
+      std::array<Vec, 4> x;
+      for (std::size_t c = 0; c < 4; ++c)
+        for (int k = 0; k < 3; ++k) x[c][k] = mesh_.x[k][mesh_.corner[c][e]];
+      if (turns_inwards(x, places_ > 1)) erosion_->fail(begin, e, "it is distorted");
+    }
   }
 
   /// Dead elements of a block are taken as a square that does not move, and stay without stress.
@@ -418,7 +434,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   const Field<Real>* directions_ = nullptr;    ///< null: no law knows any
   const Field<Real>* offset_ = nullptr;        ///< null: the middle is where the nodes are
   bool fails_with_all_ = false;
-  bool stiffens_ = false;  ///< the law of some layer does
+  bool thins_by_flow_ = false;  ///< ISTUPD 4
+  bool stiffens_ = false;       ///< the law of some layer does
 };
 
 }  // namespace

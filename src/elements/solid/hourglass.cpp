@@ -8,13 +8,14 @@
 #include <string>
 #include <utility>
 
+#include "elements/solid/section_solid.hpp"
 #include "model/conditions/condition_cards.hpp"
 
 namespace courant {
 
 namespace {
 
-constexpr int assumed_strain = 6;
+constexpr int assumed_strain = 6, of_shells = 8;
 /// LS-DYNA's advice: above it hourglass forces may make the solids unstable. Assumed strains are those of the
 /// material with 1.
 constexpr Real stable_qm = 0.15, stable_assumed = 1;
@@ -62,12 +63,26 @@ class Reader {
   }
 
   void take(const Entry& card, const char* field, int ihq, const ModelPart& part, SolidViscosity& out) {
-    if (ihq > 0 && ihq <= assumed_strain)
+    if (ihq > 0 && ihq <= assumed_strain) {
       out.ihq = ihq;
-    else if (told_.insert({&card, field}).second)
-      deck_.error(diagnostics_, card, field,
-                  fmt::format("'{}' is not supported for solids, as those of part {}", ihq, part.id),
-                  "supported values: 0 to 6; 1 to 3 are viscous, 4 and 5 a stiffness, 6 has assumed strains");
+      return;
+    }
+    if (!has_modes(part) || !told_.insert({&card, field}).second) return;
+    if (ihq == of_shells)
+      deck_.warning(diagnostics_, card, field,
+                    fmt::format("8 is of shells: the solids of part {} take 1 (viscous)", part.id),
+                    "give their part a *HOURGLASS of its own");
+    else
+      deck_.refuse(
+          diagnostics_, card, field,
+          fmt::format("'{}' is not supported for solids, as those of part {}", ihq, part.id),
+          "supported values: 0 to 6; 1 to 3 are viscous, 4 and 5 a stiffness, 6 has assumed strains");
+  }
+
+  /// Whether its solids have modes without a strain at their points.
+  bool has_modes(const ModelPart& part) const {
+    const int formulation = solid_formulation(deck_, part);
+    return formulation != 2 && formulation != 10 && formulation != 13;
   }
 
   void check_coefficient(const Entry& card, const char* field, const SolidViscosity& of) {

@@ -333,9 +333,7 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
   const bool text = spec.type == FieldType::text || spec.type == FieldType::texts;
   if (text) {
     if (!substitute_texts(card, field, slice, held)) return;
-    if (spec.rules.honour == Honour::no)
-      field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
-                  "leave the field blank");
+    if (spec.rules.honour == Honour::no) return field_refused(card, field, slice, "leave the field blank");
     sink.set_text(card, field, without_controls(slice.text));
     return;
   }
@@ -448,8 +446,7 @@ bool CardReader::passes(std::size_t card, std::size_t field, const Slice& slice,
   }
   if (value == spec.rules.standard) return true;
   if (spec.rules.honour == Honour::no) {
-    field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
-                fmt::format("leave the field blank or {:g}", spec.rules.standard));
+    field_refused(card, field, slice, fmt::format("leave the field blank or {:g}", spec.rules.standard));
     return false;
   }
   if (spec.rules.honour == Honour::output_only)
@@ -462,17 +459,21 @@ bool CardReader::passes(std::size_t card, std::size_t field, const Slice& slice,
 bool CardReader::is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value) {
   const auto& allowed = spec_->cards[card].fields[field].rules.allowed;
   if (allowed.takes(value)) return true;
-  field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text),
-              fmt::format("supported values: {}", fmt::join(allowed, ", ")));
+  field_refused(card, field, slice, fmt::format("supported values: {}", fmt::join(allowed, ", ")));
   return false;
 }
 
+/// The field keeps its standard value.
+void CardReader::field_refused(std::size_t card, std::size_t field, const Slice& slice, std::string hint) {
+  field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text), std::move(hint), true);
+}
+
 void CardReader::field_error(std::size_t card, std::size_t field, const Slice& slice,
-                             const std::string& message, std::string hint) {
+                             const std::string& message, std::string hint, bool contained) {
   if (!origin_.empty()) hint += (hint.empty() ? "" : "; ") + origin_;
-  diagnostics_->error(here(slice.column),
-                      describe_field(*spec_, block_.match.name, card, field) + ": " + message,
-                      std::move(hint));
+  diagnostics_->add({Severity::error, here(slice.column),
+                     describe_field(*spec_, block_.match.name, card, field) + ": " + message, std::move(hint),
+                     contained});
 }
 
 void CardReader::missing(const DataLines& data, const std::string& what) {

@@ -58,7 +58,8 @@ class CardReader {
   bool passes(std::size_t card, std::size_t field, const Slice& slice, Real value);
   bool is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value);
   void field_error(std::size_t card, std::size_t field, const Slice& slice, const std::string& message,
-                   std::string hint = {});
+                   std::string hint = {}, bool contained = false);
+  void field_refused(std::size_t card, std::size_t field, const Slice& slice, std::string hint);
   void missing(const DataLines& data, const std::string& what);
   Location here(int column) const { return deck_.location(block_.file, line_, column); }
 

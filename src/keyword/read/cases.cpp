@@ -73,6 +73,19 @@ bool all_integers(const std::vector<std::string>& fields) {
   return some;
 }
 
+/// COMMANDS that change no result: memory, and how many processors there are.
+bool asks_for_machine_alone(std::string_view line) {
+  const std::string text = upper_case(trimmed(line));
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" ,", at), text.size());
+    const std::string word = text.substr(at, std::min(text.find('=', at), end) - at);
+    if (!word.empty() && word != "MEMORY" && word != "MEMORY2" && word != "NCPU" && word != "PARA")
+      return false;
+    at = end + 1;
+  }
+  return true;
+}
+
 class CaseScan {
  public:
   CaseScan(std::string file, Diagnostics& diagnostics) : file_(std::move(file)), diagnostics_(diagnostics) {}
@@ -105,8 +118,10 @@ class CaseScan {
       const int line = line_of_[one.id];
       for (const Id n : one.subcases)
         if (blocks_.count(n) == 0)
-          error(line, fmt::format("SCID: there is no *CASE_BEGIN_{}", n),
-                "a case names the blocks that it has");
+          diagnostics_.warning(
+              {file_, line, 1},
+              fmt::format("*CASE: SCID {0}: there is no *CASE_BEGIN_{0}, which adds nothing", n),
+              "a case names the blocks that it has");
       if (!names.insert(one.job).second)
         error(line, fmt::format("JOBID: two cases are named '{}'", one.job), "each has a folder of its own");
     }
@@ -144,8 +159,8 @@ class CaseScan {
                    "letters, digits, _ - + .");
     std::size_t from = 1;
     if (lines.size() > 1 && !all_integers(fields_of(lines[1]))) {
-      if (!trimmed(lines[1]).empty())
-        return error(at + 2, "*CASE: COMMANDS are not supported",
+      if (!asks_for_machine_alone(lines[1]))
+        return error(at + 2, "*CASE: COMMANDS other than MEMORY, MEMORY2, NCPU, PARA are not supported",
                      "leave card 2 blank, and give options to the call");
       from = 2;
     }

@@ -1,6 +1,8 @@
 // read_deck: files and keyword lines.
 #include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "keyword/help/families.hpp"
@@ -175,9 +177,37 @@ bool DeckReader::read_deck_keyword(const File& file, std::size_t line, const Key
   return read_parameter_keyword(file, line, keyword) || read_include_keyword(file, line, keyword);
 }
 
+namespace {
+
+/// Keywords to which no other one refers, so that the rest of the deck can be judged without them.
+bool defines_nothing(const std::string& name) {
+  for (const char* begin : {"AIRBAG", "BOUNDARY", "CONTROL", "DAMPING", "INITIAL", "LOAD", "PERTURBATION",
+                            "RIGIDWALL", "SENSOR_CONTROL", "TERMINATION"})
+    if (name.starts_with(begin)) return true;
+  return false;
+}
+
+/// Whether lines hold nothing but zeros.
+bool all_zero(DataLines data) {
+  for (; !data.done(); data.step())
+    for (const char c : data.line())
+      if (c == '-' || (c >= '1' && c <= '9') || std::isalpha(static_cast<unsigned char>(c)) || c == '&')
+        return false;
+  return true;
+}
+
+}  // namespace
+
 Treatment DeckReader::read_cards(const File& file, std::size_t line, const KeywordLine& keyword) {
   const Location where = place(file, line);
   const KeywordMatch match = index_.match(keyword.name);
+  const bool refused =
+      match.keyword < 0 || !keyword_registry()[static_cast<std::size_t>(match.keyword)]->lacking.empty();
+  if (refused && keyword.name.starts_with("CONTROL_") && all_zero(DataLines(*file.source, line + 1))) {
+    diagnostics_.note(where,
+                      fmt::format("*{}: all fields are 0 or blank, which changes nothing", keyword.name));
+    return Treatment::honoured;
+  }
   if (match.keyword < 0) {
     for (DataLines data(*file.source, line + 1); !data.done(); data.step())
       parameters_.note_mentions(data.line());
@@ -196,7 +226,9 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   if (spec.once) keep_last_cards(deck_, match.keyword, match.name, diagnostics_);
   if (spec.lacking.empty()) return Treatment::honoured;
   if (refusals_.is_first(keyword.name, diagnostics_))
-    diagnostics_.error(where, fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)));
+    diagnostics_.add({Severity::error, where,
+                      fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)), "",
+                      defines_nothing(keyword.name)});
   return Treatment::refused;
 }
 
@@ -226,10 +258,10 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
     return treatment;
   }
   Refusal why = families().refusal(name);
-  diagnostics_.error(
-      where,
-      fmt::format("*{}: {}", name, why.lacking.empty() ? "unknown keyword" : not_supported(why.lacking)),
-      std::move(why.hint));
+  diagnostics_.add(
+      {Severity::error, where,
+       fmt::format("*{}: {}", name, why.lacking.empty() ? "unknown keyword" : not_supported(why.lacking)),
+       std::move(why.hint), defines_nothing(name)});
   return treatment;
 }
 

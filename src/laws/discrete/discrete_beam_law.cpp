@@ -56,6 +56,7 @@ SpringAnswer BeamSpring::answer(const SpringMotion& m, Real* state) const {
 }
 
 std::string BeamLimits::failure(const SixOfBeam& forces, const SixOfBeam& displacements) const {
+  const SixOfBeam none{};
   const auto used = [](const SixOfBeam& of, const SixOfBeam& most, const SixOfBeam& least) {
     Real sum = 0;
     for (std::size_t k = 0; k < of.size(); ++k)
@@ -64,8 +65,10 @@ std::string BeamLimits::failure(const SixOfBeam& forces, const SixOfBeam& displa
     return sum;
   };
   if (const Real sum = used(forces, force, force); sum >= 1) return fmt::format("forces, {:.4g} of 1", sum);
-  if (const Real sum = used(displacements, displacement, negative); sum >= 1)
-    return fmt::format("displacements, {:.4g} of 1", sum);
+  const Real sum =
+      apart ? std::max(used(displacements, displacement, none), used(displacements, none, negative))
+            : used(displacements, displacement, negative);
+  if (sum >= 1) return fmt::format("displacements, {:.4g} of 1", sum);
   return {};
 }
 

@@ -60,6 +60,7 @@ struct BeamSpring : SpringLaw {
 /// count. `negative`: of displacements below 0.
 struct BeamLimits {
   SixOfBeam force{}, displacement{}, negative{};
+  bool apart = false;  ///< displacements above and below 0 have sums of their own
   bool any() const { return force != SixOfBeam{} || displacement != SixOfBeam{} || negative != SixOfBeam{}; }
   /// Why it fails; empty: it does not.
   std::string failure(const SixOfBeam& forces, const SixOfBeam& displacements) const;

@@ -18,6 +18,7 @@ struct GeneralBeam : GeneralBeamFields {
     out->ro = ro;
     out->limits.displacement = {utfailr, utfails, utfailt, wtfailr, wtfails, wtfailt};
     out->limits.negative = {ucfailr, ucfails, ucfailt, wcfailr, wcfails, wcfailt};
+    out->limits.apart = fcrit == 0;
     bool good = true;
     const auto take = [&](const char* field, Id id, ForceCurve& to) {
       if (id == 0) return;

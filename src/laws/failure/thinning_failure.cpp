@@ -25,6 +25,7 @@ class ThinningFailure : public StrengthLaw {
   }
   Real failure_limit() const override { return 1; }
   std::string failure_variable() const override { return "failure_ratio"; }
+  LeastStep least_step() const override { return of_->least_step(); }
 
   /// In solids thickness has no meaning: only the law's own limit counts.
   void update(const PointBlock& block) const override {

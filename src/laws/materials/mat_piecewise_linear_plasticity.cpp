@@ -104,6 +104,7 @@ struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
       yield.rate = vp == 1 ? Rate::of_plastic_strain : vp == -1 ? Rate::of_deviator : Rate::of_strain;
     auto law = std::make_shared<IsotropicPlasticity<YieldStress>>(ro, E, pr, std::move(yield));
     if (fail > 0 && fail < never_fails) law->fails_at = fail;
+    law->shortest_step = tdel;
     return law;
   }
 

@@ -24,7 +24,9 @@ class IsotropicPlasticity : public StrengthLaw {
   Real shear_modulus() const override { return shear_; }
   std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
   Real failure_limit() const override { return fails_at; }
+  LeastStep least_step() const override { return {shortest_step, 0}; }
   Real fails_at = std::numeric_limits<Real>::infinity();  ///< plastic strain [-]
+  Real shortest_step = 0;                                 ///< elements with a smaller one fail [T]
 
   void update(const PointBlock& block) const override {
     PlasticTrial trial;

@@ -2,9 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <unordered_map>
 
 #include "extension/additions.hpp"
@@ -82,6 +85,7 @@ class SensorReader {
   }
 
   std::shared_ptr<SensorBoard> read() {
+    find_used();
     for (const Node& card : deck_.all<Node>()) add(card);
     for (const Misc& card : deck_.all<Misc>()) add(card);
     for (const SensorKind& kind : sensor_kinds())
@@ -117,12 +121,43 @@ class SensorReader {
     return false;
   }
 
+  /// Ids of sensors that something looks at.
+  void find_used() {
+    for (const Switch& card : deck_.all<Switch>()) used_.insert(card.sensid);
+    for (const Math& card : deck_.all<Math>())
+      for (const Id id : {card.sens1, card.sens2, card.sens3, card.sens4, card.sens5, card.sens6})
+        used_.insert(id);
+  }
+
+  std::vector<Index> nodes_of(const Node& card, const char* field, Id id) {
+    constexpr int of_set = 1;
+    if (id == 0) return {};
+    if (card.name != of_set) return {node(card, field, id)};
+    const auto set = model_.node_sets.find(id);
+    if (set == model_.node_sets.end()) {
+      error(card, field, fmt::format("node set {} does not exist", id), "define it with *SET_NODE");
+      return {};
+    }
+    std::vector<Index> out;
+    for (const Index n : set->second)
+      out.push_back(node(card, field, model_.nodes[static_cast<std::size_t>(n)].id));
+    return out;
+  }
+
   void add(const Node& card) {
     if (!is_new(card)) return;
+    if (!used_.contains(card.sensid))
+      return diagnostics_.note(deck_.where(card),
+                               fmt::format("sensor {}: no switch looks at it: no effect", card.sensid));
     NodeSensor out;
-    out.node = node(card, "NODE1", card.node1);
-    if (card.node2 != 0) out.base = node(card, "NODE2", card.node2);
+    out.nodes = nodes_of(card, "NODE1", card.node1), out.base = nodes_of(card, "NODE2", card.node2);
     out.velocity = card.ctype == "VEL";
+    const auto of = std::find(set_options.begin(), set_options.end(), card.setopt);
+    out.of = static_cast<NodeSensor::Of>(of - set_options.begin());
+    if (card.name == 1 && (of == set_options.end() || (out.of >= NodeSensor::Of::largest && card.node2 != 0)))
+      error(card, "SETOPT",
+            fmt::format("'{}' is not supported", card.setopt.empty() ? "blank: any node" : card.setopt),
+            "AVG or SUM; without NODE2 also MAX, MIN");
     if (card.ctype != "COORD" && card.ctype != "VEL")
       error(card, "CTYPE",
             fmt::format("'{}' is not supported", card.ctype.empty() ? "ACC (blank)" : card.ctype),
@@ -256,6 +291,8 @@ class SensorReader {
   const World& world_;
   Diagnostics& diagnostics_;
   std::unordered_map<Id, Index> node_of_id_;
+  static constexpr std::array<std::string_view, 4> set_options{"AVG", "SUM", "MAX", "MIN"};
+  std::set<Id> used_;
   std::vector<Sensor> sensors_;
   std::vector<SensorSwitch> switches_;
   std::vector<SensorControl> controls_;

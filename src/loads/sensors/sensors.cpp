@@ -13,9 +13,20 @@ std::vector<SensorKind>& sensor_kinds() {
 }
 
 Real NodeSensor::value(const World& world) const {
-  const auto of = [&](Index n) { return velocity ? world.nodes.v.vec(n) : world.nodes.x.vec(n); };
-  const Vec a = base < 0 ? of(node) : Vec(of(node) - of(base));
-  return direction.squaredNorm() > 0 ? a.dot(direction) : a.norm();
+  const auto along = [&](const Vec& a) { return direction.squaredNorm() > 0 ? a.dot(direction) : a.norm(); };
+  const auto at = [&](Index n) { return velocity ? world.nodes.v.vec(n) : world.nodes.x.vec(n); };
+  if (of == Of::largest || of == Of::least) {
+    Real out = along(at(nodes.front()));
+    for (const Index n : nodes)
+      out = of == Of::largest ? std::max(out, along(at(n))) : std::min(out, along(at(n)));
+    return out;
+  }
+  const auto total = [&](const std::vector<Index>& some) {
+    Vec out = Vec::Zero();
+    for (const Index n : some) out += at(n);
+    return of == Of::mean && !some.empty() ? Vec(out / static_cast<Real>(some.size())) : out;
+  };
+  return along(total(nodes) - total(base));
 }
 
 SensorBoard::SensorBoard(std::vector<Sensor> sensors, std::vector<SensorSwitch> switches,

@@ -30,12 +30,13 @@ struct RegisterSensors {
   explicit RegisterSensors(SensorKind kind) { sensor_kinds().push_back(std::move(kind)); }
 };
 
-/// What a node does along a direction, seen from another one.
+/// What nodes do along a direction, seen from others.
 struct NodeSensor {
-  Index node = 0, base = -1;             ///< of the world; base -1: none
-  Vec direction = Vec::Zero();           ///< 0: the magnitude
-  bool velocity = false;                 ///< else the coordinate
-  Real value(const World& world) const;  ///< [L], [L/T]
+  enum class Of { mean, sum, largest, least } of = Of::mean;  ///< of several
+  std::vector<Index> nodes{}, base{};                         ///< of the world; base empty: none
+  Vec direction = Vec::Zero();                                ///< 0: the magnitude
+  bool velocity = false;                                      ///< else the coordinate
+  Real value(const World& world) const;                       ///< [L], [L/T]
 };
 
 struct SensorSwitch {

@@ -22,8 +22,9 @@ namespace {
 
 class RigidWallReader {
  public:
-  RigidWallReader(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics)
-      : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
+  RigidWallReader(const Deck& deck, const Model& model, const RigidWallPenalty& penalty, World& world,
+                  Diagnostics& diagnostics)
+      : deck_(deck), model_(model), penalty_(penalty), world_(world), diagnostics_(diagnostics) {
     for (const RigidWallPlanar& card : deck.all<RigidWallPlanar>()) taken_.insert(card.id);
     for (const RigidWallOrtho& card : deck.all<RigidWallOrtho>()) taken_.insert(card.id);
     for (const RigidWallGeometric& card : deck.all<RigidWallGeometric>()) taken_.insert(card.id);
@@ -56,6 +57,11 @@ class RigidWallReader {
     Index held = 0, behind = 0, driven = 0, rigid = 0, tied = 0;
     Real deepest = 0;
     Id driven_id = 0, rigid_id = 0, tied_id = 0;
+    std::vector<BodyNode> bodies{};  ///< that the wall pushes
+    void see(Real gap, const Vec& x, const Vec& tail) {
+      constexpr Real round_off = 1e-9;
+      if (gap < -round_off * (x.norm() + tail.norm())) ++behind, deepest = std::max(deepest, -gap);
+    }
   };
 
   RigidWallSetup start(const RigidWallCard& card) {
@@ -64,7 +70,8 @@ class RigidWallReader {
             .title = card.title,
             .shape = {.tail = card.tail()},
             .birth = card.birth,
-            .death = card.death};
+            .death = card.death,
+            .body_stiffness = card.rwksf};
   }
 
   void choose_points(const RigidWallCard& card, RigidWallSetup wall) {
@@ -80,8 +87,9 @@ class RigidWallReader {
       choose(card, wall.shape, points, state, count);
       sets.push_back({points, state, push});
     }
-    warn(card, wall.shape, count);
-    if (diagnostics_.ok()) walls_.push_back({std::move(wall), std::move(sets)});
+    WallPenalty bodies(std::move(count.bodies), penalty_.bodies, penalty_.scale * wall.body_stiffness);
+    warn(card, wall, count, bodies);
+    if (diagnostics_.ok()) walls_.push_back({std::move(wall), std::move(sets), std::move(bodies)});
   }
 
   /// Its number in the deck, unless another wall has that as its id.
@@ -265,31 +273,25 @@ class RigidWallReader {
         state[i] = 0;
         if (world_.nodes.follow[i] == 2) {  // a face moves it
           if (count.tied++ == 0) count.tied_id = world_.nodes.id[i];
-        } else if (!world_.nodes.held[i] && count.rigid++ == 0) {
-          count.rigid_id = world_.nodes.id[i];
+        } else if (const Index body = penalty_.bodies.body(i); !world_.nodes.held[i]) {
+          if (count.rigid++ == 0) count.rigid_id = world_.nodes.id[i];
+          if (body < 0 || penalty_.scale == 0) continue;
+          count.bodies.push_back({i, body});
+          count.see(gap, points.x->vec(i), shape.tail);
         }
       } else if (driven && (*driven)[i] != 0) {
         if (count.driven++ == 0) count.driven_id = (*points.id)[i];
       } else {
         ++count.held;
-        constexpr Real round_off = 1e-9;
-        if (gap < -round_off * (points.x->vec(i).norm() + shape.tail.norm()))
-          ++count.behind, count.deepest = std::max(count.deepest, -gap);
+        count.see(gap, points.x->vec(i), shape.tail);
       }
     }
   }
 
-  void warn(const RigidWallCard& card, const WallShape& shape, const Count& count) {
-    if (count.rigid > 0 && card.nsid != 0)
-      error(card, "NSID",
-            fmt::format("node {} belongs to a rigid body, which rigid walls do not hold", count.rigid_id),
-            "leave it out, or use a held rigid plate as the wall, with *CONTACT");
-    else if (count.rigid > 0)
-      deck_.warning(diagnostics_, card, "NSID",
-                    fmt::format("the wall does not hold rigid bodies that can move: {} of their nodes go "
-                                "through it, as node {}",
-                                count.rigid, count.rigid_id),
-                    "leave them out by NSIDEX");
+  void warn(const RigidWallCard& card, const RigidWallSetup& wall, const Count& count,
+            const WallPenalty& bodies) {
+    const WallShape& shape = wall.shape;
+    warn_of_bodies(card, wall, count, bodies);
     if (count.tied > 0)
       deck_.warning(
           diagnostics_, card, "NSID",
@@ -311,12 +313,52 @@ class RigidWallReader {
                     shape.kind == WallShape::Kind::plane
                         ? "turn the normal round, or leave them out by NSID, NSIDEX, BOXID or OFFSET"
                         : "move the wall, or leave them out by NSID, NSIDEX or BOXID");
-    if (count.held == 0)
+    if (penalty_.of_all_nodes && count.held > 0)
+      deck_.warning(
+          diagnostics_, card, "",
+          "RWPNAL of *CONTROL_CONTACT is below 0, which asks for a penalty of all nodes: nodes that "
+          "deform are stopped at once in its place, and do not bounce",
+          "RWPNAL 1 says the same without this warning");
+    if (count.held == 0 && bodies.empty())
       deck_.warning(diagnostics_, card, "", "the wall holds nothing", "name particles or nodes of solids");
+  }
+  void warn_of_bodies(const RigidWallCard& card, const RigidWallSetup& wall, const Count& count,
+                      const WallPenalty& bodies) {
+    if (count.rigid == 0) return;
+    if (penalty_.scale * wall.body_stiffness == 0 || bodies.empty())
+      return deck_.warning(
+          diagnostics_, card, "NSID",
+          fmt::format("the wall does not hold rigid bodies that can move: {} of their nodes go "
+                      "through it, as node {}",
+                      count.rigid, count.rigid_id),
+          "RWPNAL 1 of *CONTROL_CONTACT lets walls push them; or leave them out by NSIDEX");
+    if (!bodies.gives(penalty_.bodies.body(index_of(count.rigid_id)), world_))
+      deck_.warning(diagnostics_, card, "NSID",
+                    fmt::format("the wall does not hold rigid bodies whose motion is prescribed, as that of "
+                                "node {}",
+                                count.rigid_id),
+                    "leave them out by NSIDEX");
+    if (penalty_.scale * wall.body_stiffness > WallPenalty::most_scale)
+      deck_.warning(
+          diagnostics_, card, "",
+          fmt::format("the penalty for rigid bodies, RWPNAL RWKSF = {:g}, is taken as {:g}: the step "
+                      "allows no stiffer one",
+                      penalty_.scale * wall.body_stiffness, WallPenalty::most_scale),
+          "give RWPNAL of *CONTROL_CONTACT 1");
+    if (wall.welds)
+      deck_.warning(diagnostics_, card, "FRIC",
+                    "the wall welds nodes that deform; rigid bodies bounce off it",
+                    "leave them out by NSIDEX");
+  }
+  Index index_of(Id node) const {
+    Index i = 0;
+    while (i < world_.nodes.size() && world_.nodes.id[i] != node) ++i;
+    return i;
   }
 
   const Deck& deck_;
   const Model& model_;
+  const RigidWallPenalty& penalty_;
   World& world_;
   Diagnostics& diagnostics_;
   Id number_ = 0;
@@ -327,8 +369,9 @@ class RigidWallReader {
 
 }  // namespace
 
-bool add_rigid_walls(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
-  RigidWallReader reader(deck, model, world, diagnostics);
+bool add_rigid_walls(const Deck& deck, const Model& model, const RigidWallPenalty& penalty, World& world,
+                     Diagnostics& diagnostics) {
+  RigidWallReader reader(deck, model, penalty, world, diagnostics);
   for (const RigidWallPlanar& card : deck.all<RigidWallPlanar>()) reader.add(card);
   for (const RigidWallOrtho& card : deck.all<RigidWallOrtho>()) reader.add(card);
   for (const RigidWallGeometric& card : deck.all<RigidWallGeometric>()) reader.add(card);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -42,7 +43,11 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   using Near = std::vector<std::vector<Index>>;
 
   explicit RigidWall(RigidWallAndPoints all)
-      : wall_(std::move(all.wall)), sets_(std::move(all.sets)), speed_(wall_.speed), next_(wall_.speed) {}
+      : wall_(std::move(all.wall)),
+        sets_(std::move(all.sets)),
+        bodies_(std::move(all.bodies)),
+        speed_(wall_.speed),
+        next_(wall_.speed) {}
   std::string name() const override { return fmt::format("rigid wall {}", wall_.id); }
   std::span<const HeldPoints> sets() const { return sets_; }
 
@@ -73,10 +78,29 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     return held.state[i] == 2 || (held.state[i] != 0 && nearest(held.points.x->vec(i)).gap <= way);
   }
 
+  const WallPenalty& bodies() const { return bodies_; }
+  /// Once in a step, before points.
+  void push_bodies(const World& world, const Clock& clock) {
+    if (bodies_.empty()) return;
+    if (!acts(clock)) {
+      released_ = bodies_.release();
+      return;
+    }
+    WallPenalty::Wall now{.shape = &wall_.shape,
+                          .moved = moved_ + way_ * wall_.shape.n(),
+                          .v = drive_ + speed_ * wall_.shape.n()};
+    if (wall_.friction > 0 || wall_.ortho)
+      now.friction = [this, dim = world.dim](const Vec& n, const Vec& slip, Real push, Real m, Real dt) {
+        return friction(n, slip, push, m, dt, dim == 2);
+      };
+    bodies_.push(world, clock, now);
+    force_ = bodies_.force(), normal_ = bodies_.normal();
+  }
+
   /// Finds the forces anew, whatever other walls have done to the points since; returns the sum of what has
   /// changed. [ML/T2]
   Real push(const World& world, const Clock& clock) {
-    if (clock.t < wall_.birth || clock.t >= wall_.death) return 0;
+    if (!acts(clock)) return 0;
     next_ = common_speed(world, clock);
     Sums all;
     for (std::size_t s = 0; s < sets_.size(); ++s)
@@ -90,15 +114,20 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
           [](const Sums& a, const Sums& b) {
             return Sums{a.force + b.force, a.normal + b.normal, a.change + b.change};
           });
-    force_ = Vec::Zero() - all.force, normal_ = all.normal;
+    force_ = bodies_.force() - all.force, normal_ = bodies_.normal() + all.normal;
     return all.change;
   }
 
   /// What the forces take from the points and do not give to the wall.
-  void record(World&, const Clock& clock, EnergyLedger& ledger) override {
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
     const Real dt = clock.dt_mean();
     const Real work = 0 - force_.dot(drive_) * dt;  // of what moves the wall
     Real lost = work - 0.5 * wall_.mass * (next_ * next_ - speed_ * speed_);
+    if (!bodies_.empty()) {  // whose springs keep what they take
+      const Vec v = drive_ + 0.5 * (speed_ + next_) * wall_.shape.n();
+      lost += bodies_.force().dot(v) * dt + bodies_.friction_loss(world, clock, v) + released_;
+      released_ = 0;
+    }
     for (std::size_t s = 0; s < sets_.size(); ++s)
       lost -= sum(static_cast<Index>((*near_)[s].size()), [&](Index k) {
         const Index i = point(s, k);
@@ -113,6 +142,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   }
   void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
     ledger.kinetic += 0.5 * wall_.mass * speed_ * speed_;
+    ledger.contact += bodies_.stored();
   }
 
   RigidWallForce report_wall() const override {
@@ -129,9 +159,11 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     archive("speed", speed_), archive("way", way_), archive("impulse", impulse_), archive("lost", lost_);
     archive("moved", moved_);
     archive("force", force_);  // sensors look before walls strike
+    bodies_.keep(archive);
   }
 
  private:
+  bool acts(const Clock& clock) const { return clock.t >= wall_.birth && clock.t < wall_.death; }
   Index point(std::size_t set, Index k) const { return (*near_)[set][static_cast<std::size_t>(k)]; }
   WallShape::Near nearest(const Vec& x) const {
     WallShape::Near near = wall_.shape.nearest(x - moved_);
@@ -178,7 +210,8 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     const auto add = [](Body a, Body b) { return Body(a.first + b.first, a.second + b.second); };
     Real w = speed_;
     for (int round = 0; round < most_rounds; ++round) {
-      Body all{wall_.mass, wall_.mass * speed_};
+      const Real by_bodies = bodies_.force().dot(wall_.shape.n()) * clock.dt_mean();
+      Body all{wall_.mass, wall_.mass * speed_ + by_bodies};
       for (std::size_t s = 0; s < sets_.size(); ++s)
         all = add_up(
             static_cast<Index>((*near_)[s].size()), all,
@@ -224,18 +257,24 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     if (wall_.friction == 0 && !wall_.ortho) return force;
     Vec slip = a.v + force * (dt / m) - drive_;
     slip -= slip.dot(a.along) / a.along.squaredNorm() * a.along;
-    if (wall_.ortho) return force + wall_.ortho->force(a.n, slip, std::abs(normal), m, dt, a.confined);
+    return force + friction(a.n, slip, std::abs(normal), m, dt, a.confined);
+  }
+  /// On a mass m that would slide so; it stops it at most.
+  Vec friction(const Vec& n, const Vec& slip, Real normal, Real m, Real dt, bool confined) const {
+    if (wall_.ortho) return wall_.ortho->force(n, slip, normal, m, dt, confined);
     const Real speed = slip.norm(), stops = m * speed / dt;
-    if (speed > 0) force -= std::min(wall_.friction * std::abs(normal), stops) / speed * slip;
-    return force;
+    if (!(speed > 0)) return Vec::Zero();
+    return -std::min(wall_.friction * normal, stops) / speed * slip;
   }
 
   static constexpr int most_rounds = 100;  ///< of Newton's method: mostly two or three
   RigidWallSetup wall_;
   std::vector<HeldPoints> sets_;
+  WallPenalty bodies_;
   std::shared_ptr<const Near> near_;
   Real speed_, next_;                                ///< along the normal now, and after the step [L/T]
   Real way_ = 0, lost_ = 0;                          ///< so far [L], [ML2/T2]
+  Real released_ = 0;                                ///< by springs to bodies when the wall ended [ML2/T2]
   Real normal_ = 0;                                  ///< of the force on the wall, all along the normals
   Vec force_ = Vec::Zero(), impulse_ = Vec::Zero();  ///< on the wall
   Vec drive_ = Vec::Zero(), moved_ = Vec::Zero();    ///< prescribed: over the step [L/T], so far [L]
@@ -250,6 +289,7 @@ class RigidWalls : public Impact {
   void strike(World& world, const Clock& clock) override {
     const auto near = find_near(world, clock);
     for (const auto& wall : walls_) wall->start(near);
+    for (const auto& wall : walls_) wall->push_bodies(world, clock);
     constexpr int most_sweeps = 100;
     constexpr Real settled = 1e-13;
     Real first = 0;
@@ -287,12 +327,31 @@ class RigidWalls : public Impact {
   std::vector<std::shared_ptr<RigidWall>> walls_;
 };
 
+/// Of the springs between walls and bodies.
+class WallSprings : public TimeLimit {
+ public:
+  explicit WallSprings(std::vector<std::shared_ptr<RigidWall>> walls) : walls_(std::move(walls)) {}
+  std::string name() const override { return "rigid walls (penalty)"; }
+  Limit limit(const World&, const Clock&) override {
+    Limit out{std::numeric_limits<Real>::infinity(), name()};
+    for (const auto& wall : walls_)
+      if (wall->bodies().longest_step() < out.dt) out = {wall->bodies().longest_step(), wall->name()};
+    return out;
+  }
+
+ private:
+  std::vector<std::shared_ptr<RigidWall>> walls_;
+};
+
 }  // namespace
 
 void add_wall_passes(std::vector<RigidWallAndPoints> all, World& world) {
   std::vector<std::shared_ptr<RigidWall>> walls;
+  const bool springs =
+      std::any_of(all.begin(), all.end(), [](const auto& one) { return !one.bodies.empty(); });
   for (RigidWallAndPoints& one : all)
     world.passes.add(walls.emplace_back(std::make_shared<RigidWall>(std::move(one))));
+  if (springs) world.passes.add(std::make_shared<WallSprings>(walls));
   if (!walls.empty()) world.passes.add(std::make_shared<RigidWalls>(std::move(walls)));
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "loads/walls/wall_friction.hpp"
+#include "loads/walls/wall_penalty.hpp"
 #include "loads/walls/wall_shape.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "state/points.hpp"
@@ -19,6 +20,7 @@ struct RigidWallSetup {
   std::string title;
   WallShape shape;
   Real birth = 0, death = 1e20;
+  Real body_stiffness = 1;                   ///< RWKSF: share of the penalty for rigid bodies
   Real mass = 0;                             ///< 0: it does not give way. Of planes only
   Real speed = 0;                            ///< at the start, along the normal, of one with a mass [L/T]
   Real friction = 0;                         ///< infinite where nothing slides
@@ -41,6 +43,7 @@ struct HeldPoints {
 struct RigidWallAndPoints {
   RigidWallSetup wall;
   std::vector<HeldPoints> sets;
+  WallPenalty bodies{};
 };
 
 /// Adds the passes of all walls of a world.

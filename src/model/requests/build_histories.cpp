@@ -129,6 +129,28 @@ void ModelBuilder::build_history_node() {
   });
   const auto same = [](const HistoryNode& a, const HistoryNode& b) { return a.id == b.id; };
   history.erase(std::unique(history.begin(), history.end(), same), history.end());
+  build_accelerometers();
+}
+
+/// Those whose node is in nodout give it their axes.
+void ModelBuilder::build_accelerometers() {
+  for (const SeatbeltAccelerometer& card : deck_.all<SeatbeltAccelerometer>()) {
+    const std::array<Index, 3> n{node(card, "NID1", card.nid1), node(card, "NID2", card.nid2),
+                                 node(card, "NID3", card.nid3)};
+    if (n[0] < 0 || n[1] < 0 || n[2] < 0) continue;
+    const auto x = [&](std::size_t k) { return model_.nodes[static_cast<std::size_t>(n[k])].x; };
+    const Vec a = x(1) - x(0), b = x(2) - x(0);
+    constexpr Real least_sine = 1e-6;
+    if (!(a.cross(b).norm() > least_sine * a.norm() * b.norm())) {
+      error(card, "NID3", "the three nodes of the accelerometer lie on a line", "name nodes of a triangle");
+      continue;
+    }
+    for (HistoryNode& one : model_.output.history_node)
+      if (one.id == card.nid1) one.axes = {card.nid2, card.nid3};
+    if (card.igrav != 0)
+      deck_.warning(diagnostics_, card, "IGRAV", "accelerations in nodout hold what gravity does",
+                    "leave it 0, and take gravity out of them afterwards");
+  }
 }
 
 }  // namespace courant

@@ -169,6 +169,7 @@ void RigidBodies::apply(World& world, const Clock& clock) {
     bodies_[piece.body].force += piece.force;
     bodies_[piece.body].moment += piece.moment;
   }
+  damp(clock);
   for (RigidBody& b : bodies_)
     for (int k = 0; k < 3; ++k) {
       if (b.held[k]) b.force[k] = 0;
@@ -403,6 +404,10 @@ Real below_of(const RigidBody& b, Real dt) {
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
   if (clock.cycle == 0)
     for (const RigidBody& b : bodies_) ledger.below_at_start += below_of(b, clock.dt);
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    const Real lost = lost_to_damping(k, clock);
+    ledger.dissipated += lost, ledger.throughput += std::abs(lost);
+  }
   for (RigidBody& b : bodies_) {
     const Real work = b.motions.empty() ? 0 : work_of_drives(b, clock);
     b.drive_work += work;

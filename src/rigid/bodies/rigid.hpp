@@ -14,6 +14,7 @@
 #include "extension/part_values.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
+#include "loads/loads.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
 #include "rigid/bodies/body_cards.hpp"
@@ -120,6 +121,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   Real step_share() const { return step_share_; }
 
   void set_loads(BodyAcceleration loads) { loads_ = std::move(loads); }
+  /// -D m v at the centre and -D L about it, by the parts of bodies; as for nodes (loads/damping.cpp).
+  void set_damping(std::vector<Damping> damping) { damping_ = std::move(damping); }
 
   std::string name() const override { return "rigid bodies"; }
   /// Sums the forces on the bodies' nodes: each piece alone, then the pieces in order, so that any number of
@@ -175,10 +178,14 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
 
  private:
   std::array<Real, 4> potential(const RigidBody& body, const BodyAcceleration::At& now) const;
+  void damp(const Clock& clock);
+  Real lost_to_damping(std::size_t body, const Clock& clock) const;
   std::vector<RigidBody> bodies_;
   std::vector<Piece> pieces_;
   Real step_share_;
   BodyAcceleration loads_;
+  std::vector<Damping> damping_;
+  std::vector<std::array<Vec, 2>> damped_;  ///< force and moment that damping takes, of each body
   BodyTies* ties_ = nullptr;
 };
 

@@ -286,22 +286,29 @@ bool add_joints(const Deck& deck, const Model& model, std::shared_ptr<RigidBodie
   if (!good || !diagnostics.ok()) return true;
   const auto pass = std::make_shared<Joints>(std::move(joints), bodies);
   const auto [before, after, worst] = pass->make_start_consistent(world);
-  constexpr Real rounding = 1e-6;
+  constexpr Real rounding = 1e-6, of_rest_energy = 1e-20;  // below: no motion that anybody gave
+  const bool fits = std::abs(before - after) <=
+                    std::max(rounding * std::max(before, after), of_rest_energy * bodies->rest_energy());
   const bool motors = std::any_of(pass->all().begin(), pass->all().end(),
                                   [](const Joint& joint) { return is_motor(joint.kind); });
-  if (motors && std::abs(before - after) > rounding * std::max(before, after))
+  if (motors && !fits)
     deck.warning(
         diagnostics, cards[worst], "",
         fmt::format("velocities at the start do not fit the joints and motors: kinetic energy [ML2/T2] "
                     "changes from {:.4g} to {:.4g} at once",
                     before, after),
         "give the bodies velocities that fit, or let the curve of the motor begin with what they have");
-  else if (std::abs(before - after) > rounding * std::max(before, after))
-    deck.warning(diagnostics, cards[worst], "",
-                 fmt::format("velocities at the start do not fit the joints: {:.4g} of {:.4g} of kinetic "
-                             "energy [ML2/T2] is lost, as in a plastic impact",
-                             before - after, before),
-                 "give the bodies velocities with which the nodes of joints move together");
+  else if (!fits)
+    deck.warning(
+        diagnostics, cards[worst], "",
+        before > after
+            ? fmt::format("velocities at the start do not fit the joints: {:.4g} of {:.4g} of kinetic "
+                          "energy [ML2/T2] is lost, as in a plastic impact",
+                          before - after, before)
+            : fmt::format("velocities at the start do not fit the joints: prescribed motions give "
+                          "{:.4g} of kinetic energy [ML2/T2] at once, to {:.4g} at the start",
+                          after - before, before),
+        "give the bodies velocities with which the nodes of joints move together");
   bodies->tie(pass.get());
   world.passes.add(pass);
   return true;

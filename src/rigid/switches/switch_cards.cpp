@@ -89,7 +89,12 @@ const RegisterKeyword<A> automatic_switch{
                       rules::id_of(IdSpace::part)},
                      {"PTYPE", &A::soft_ptype, "-", "PART or blank; PSET: PID is a set"}},
           .repeat = true,
-          .more = [](const A& card) { return static_cast<int>(card.soft_pid.size()) < card.r2d; }}}}};
+          .more = [](const A& card) { return static_cast<int>(card.soft_pid.size()) < card.r2d; }},
+         {.fields = {{"PID", &A::spare_pid, "-", "no more parts than D2R and R2D say", unsupported},
+                     {"LRB", &A::spare_lrb, "-", "of none", no_effect},
+                     {"PTYPE", &A::spare_ptype, "-", "of none", no_effect}},
+          .optional = true,
+          .repeat = true}}}};
 
 using D2R = ToRigidAtRestart;
 using R2D = ToDeformableAtRestart;

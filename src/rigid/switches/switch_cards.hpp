@@ -16,6 +16,8 @@ struct AutomaticSwitch : Entry {
   Real time1 = 0, time2 = 1e20, time3 = 0, dtmax = 0, offset = 0;
   std::vector<Id> pid{}, lrb{}, soft_pid{};
   std::vector<std::string> ptype{}, soft_ptype{};
+  std::vector<Id> spare_pid{};  ///< of lines beyond D2R and R2D, as some programs write them: all 0
+  std::vector<std::string> spare_lrb{}, spare_ptype{};
   std::string at_restart{};  ///< of *RIGID_DEFORMABLE: what its name ends in
   const char *first_field = "SWSET", *d2r_field = "D2R", *r2d_field = "R2D";  ///< for messages
   bool of_wall() const { return code == 1 || code == 3; }

@@ -522,7 +522,7 @@ TEST(MatPiecewiseLinearPlasticity, ChecksItsCards) {
   complains("1,1.0,1.0,0.5,0.1\n", "PR");
   complains("1,1.0,1.0,0.3,0.1,1.0\n", "ETAN");
   complains("1,1.0,1.0,0.3,0.1,,-0.2\n", "FAIL");
-  complains("1,1.0,1.0,0.3,0.1,,,0.2\n", "TDEL");
+  complains("1,1.0,1.0,0.3,0.1,,,-0.2\n", "TDEL");
   complains("1,1.0,1.0,0.3,0.1\n1.0\n", "(P,");
   complains("1,1.0,1.0,0.3,0.1\n,1.0\n", "(C,");
   complains("1,1.0,1.0,0.3,0.1\n,,9\n", "there is no curve or table 9");

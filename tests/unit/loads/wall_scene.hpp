@@ -40,6 +40,7 @@ struct WallScene {
   PassTimer timer;
   std::unique_ptr<Stepper> stepper;
   Diagnostics diagnostics;
+  RigidWallPenalty penalty{};
   Real kinetic = 0;
   Vec momentum = Vec::Zero();  ///< of the points
 
@@ -63,7 +64,7 @@ struct WallScene {
   void walls(const std::string& keywords) {
     const ReadDeck read = read_in_memory(in_memory("*KEYWORD\n" + keywords + "*END\n"));
     EXPECT_TRUE(read.diagnostics.ok()) << read.diagnostics.text();
-    add_rigid_walls(read.deck, model, w, diagnostics);
+    add_rigid_walls(read.deck, model, penalty, w, diagnostics);
   }
   void gravity(const Vec& g) {
     for (const Points& p : sets())

@@ -194,11 +194,6 @@ INSTANTIATE_TEST_SUITE_P(
               "box 4 is defined twice"},
         Fault{"VelocityWithoutSystem", "*INITIAL_VELOCITY\n0,0,0,0,7\n1.\n",
               "coordinate system 7 does not exist"},
-        Fault{
-            "ConstraintAskew",
-            "*DEFINE_COORDINATE_VECTOR\n7,1.,1.,0.,0.,1.,0.\n*BOUNDARY_SPC_SET\n1,7,1\n*SET_NODE\n1\n1,2,3\n",
-            "a constraint along the axes of system 7 is not supported, as they are not along the global "
-            "axes"},
         Fault{"ConstraintThatTurns", "*DEFINE_COORDINATE_NODES\n7,1,2,5,1\n*BOUNDARY_SPC_NODE\n1,7,1\n",
               "system 7 is not supported, as it turns with nodes"},
         Fault{"CurveBackwards", "*DEFINE_CURVE\n1\n0.,1.\n1.,1.\n0.5,3.\n",

@@ -1,0 +1,36 @@
+// *DAMPING_GLOBAL and *DAMPING_PART_MASS on rigid bodies.
+#include <algorithm>
+
+#include "rigid/bodies/rigid.hpp"
+
+namespace courant {
+
+void RigidBodies::damp(const Clock& clock) {
+  if (damping_.empty()) return;
+  damped_.assign(bodies_.size(), {Vec::Zero(), Vec::Zero()});
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    RigidBody& b = bodies_[k];
+    if (b.fixed()) continue;
+    Vec D = Vec::Zero(), of_turns = Vec::Zero();
+    for (const Damping& d : damping_) {
+      const bool named = d.parts.empty() || std::any_of(b.parts.begin(), b.parts.end(), [&](Index part) {
+                           return std::binary_search(d.parts.begin(), d.parts.end(), part);
+                         });
+      if (named) D += d.at(clock.t) * d.scale, of_turns += d.at(clock.t) * d.turn_scale;
+    }
+    const Vec force = b.force, moment = b.moment, half = Vec::Constant(0.5 * clock.dt_old);
+    b.force = (force - b.m * D.cwiseProduct(b.v)).cwiseQuotient(Vec::Ones() + D.cwiseProduct(half));
+    b.moment = (moment - of_turns.cwiseProduct(b.L)).cwiseQuotient(Vec::Ones() + of_turns.cwiseProduct(half));
+    damped_[k] = {force - b.force, moment - b.moment};
+  }
+}
+
+Real RigidBodies::lost_to_damping(std::size_t body, const Clock& clock) const {
+  const RigidBody& b = bodies_[body];
+  if (damped_.empty() || b.fixed()) return 0;
+  const HalfStep next = next_half_step(b, clock);
+  const Vec v = 0.5 * (b.v + next.v), omega = 0.5 * (b.omega + b.turning_by(next.L, b.q));
+  return (damped_[body][0].dot(v) + damped_[body][1].dot(omega)) * clock.dt_mean();
+}
+
+}  // namespace courant
