@@ -10,7 +10,7 @@
 #include "extension/left_out.hpp"
 #include "keyword/deck.hpp"
 #include "loads/body_acceleration.hpp"
-#include "loads/wall_penalty.hpp"
+#include "loads/walls/wall_penalty.hpp"
 #include "model/conditions/prescribed_motion.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"

@@ -12,6 +12,7 @@
 #include "elements/histories/elout_text.hpp"
 #include "extension/additions.hpp"
 #include "keyword/help/law_names.hpp"
+#include "laws/discrete/discrete_law_cards.hpp"
 #include "laws/strength/strength.hpp"
 #include "model/requests/output_cards.hpp"
 

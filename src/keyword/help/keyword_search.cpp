@@ -49,7 +49,7 @@ KeywordAnswer find_keywords(const std::string& name) {
   if (!wanted.empty() && wanted[0] == '*') wanted.erase(0, 1);
   while (!wanted.empty() && wanted.back() == '_') wanted.pop_back();
   if (wanted.empty()) return {true, keyword_list(), ""};
-  const MatchingKeyword match = KeywordIndex().match(wanted);
+  const KeywordMatch match = KeywordIndex().match(wanted);
   const KeywordSpec* spec =
       match.keyword < 0 ? nullptr : keyword_registry()[static_cast<std::size_t>(match.keyword)].get();
   const std::vector<MatchingKeyword> others = names_with(wanted, spec);

@@ -1,4 +1,4 @@
-#include "loads/wall_penalty.hpp"
+#include "loads/walls/wall_penalty.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "../unit/elements/cell_shapes.hpp"
+#include "../../unit/elements/cell_shapes.hpp"
 #include "app/run/simulation.hpp"
 
 namespace courant::test {
