@@ -96,7 +96,7 @@ struct Hexahedra {
 
   /// A step that led to x with v; `body(begin, count)` looks at the scratch of each block.
   template <class Body>
-  HexahedronLoops::Found visit(Real dt, const Body& body) {
+  HexahedronLoops::StableStep visit(Real dt, const Body& body) {
     std::array<Numbers, 3> px, pv;
     for (std::size_t n = 0; n < x.size(); ++n)
       for (int d = 0; d < 3; ++d) px[d].push_back(x[n][d]), pv[d].push_back(v[n][d]);
@@ -111,7 +111,7 @@ struct Hexahedra {
     state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk_viscosity_energy.data();
     state.viscous_pressure = viscous_pressure.data();
-    HexahedronLoops::Found all{};
+    HexahedronLoops::StableStep all{};
     const Index n = static_cast<Index>(size());
     for (Index begin = 0; begin < n; begin += block_size) {
       const HexahedronLoops::Block block{begin, std::min(block_size, n - begin), dt};
@@ -132,7 +132,7 @@ struct Hexahedra {
   void each_block(Real dt, const Body& body) {
     visit(dt, body);
   }
-  HexahedronLoops::Found advance(Real dt) {
+  HexahedronLoops::StableStep advance(Real dt) {
     return visit(dt, [](Index, Index) {});
   }
 

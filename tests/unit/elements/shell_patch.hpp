@@ -113,7 +113,7 @@ struct ShellPatch {
   }
 
   /// A step that led to x with v and w; `look(begin, count)` sees the scratch of each block.
-  ShellLoops::Found advance(
+  ShellLoops::StableStep advance(
       Real dt, const std::function<void(Index, Index)>& look = [](Index, Index) {}) {
     std::array<Numbers, 3> px, pv, pw;
     ShellMesh mesh{};
@@ -128,7 +128,7 @@ struct ShellPatch {
     state.thickness = thickness.data(), state.mass = mass.data();
     state.internal_energy = internal.data(), state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk.data(), state.viscous_force = viscous_force.data();
-    ShellLoops::Found least{1e300, 0};
+    ShellLoops::StableStep least{1e300, 0};
     for (Index begin = 0; begin < static_cast<Index>(size()); begin += block_size) {
       const ShellLoops::Block block{begin, std::min<Index>(block_size, static_cast<Index>(size()) - begin),
                                     dt};
@@ -138,7 +138,7 @@ struct ShellPatch {
         loops.at_point(block, p, state, scratch);
         law(block, p);
       }
-      const ShellLoops::Found found = loops.forces(block, control, state, scratch);
+      const ShellLoops::StableStep found = loops.forces(block, control, state, scratch);
       const auto keep = [&](const auto& from, auto& to) {
         for (std::size_t k = 0; k < to.size(); ++k)
           std::copy(from[k], from[k] + block.count, to[k].begin() + begin);

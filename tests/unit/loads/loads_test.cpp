@@ -193,7 +193,7 @@ TEST(FixedPoints, HoldNodesAndTellWhatForce) {
   Scene s;
   s.model.nodes[2].fixed = {true, false, true};
   s.model.nodes[1].fixed = {true, true, true};
-  s.model.output.spcforc.interval = 1;
+  s.model.output.histories["spcforc"].times.interval = 1;
   EXPECT_EQ(make_fixed_points(s.model, points_of(s.w.particles), s.w), nullptr);
   s.place(Vec::Zero(), Vec(1, 1, 1));
   auto pass = make_fixed_points(s.model, points_of(s.w.nodes), s.w);

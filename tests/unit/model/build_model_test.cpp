@@ -81,7 +81,7 @@ TEST_P(AcceptDeck, GivesControlAndOutput) {
   EXPECT_EQ(m.output.d3plot_count, 5);
   EXPECT_EQ(m.output.d3plot.interval, 0.5);
   EXPECT_EQ(m.output.history("glstat").interval, 0.01);
-  EXPECT_EQ(m.output.sphout.interval, 0.02);
+  EXPECT_EQ(m.output.history("sphout").interval, 0.02);
   EXPECT_EQ(m.output.history("rcforc").interval, 0);
   EXPECT_EQ(m.output.history_sph, std::vector<Id>{5});
 }

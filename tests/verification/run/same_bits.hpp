@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "../structures/solid_decks.hpp"
 #include "parallel/parallel.hpp"
-#include "solid_decks.hpp"
 #include "state/restartable.hpp"
 
 namespace courant::test {

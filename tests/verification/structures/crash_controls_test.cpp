@@ -26,8 +26,8 @@ std::string pulled_shell(const std::string& material, const std::string& control
       "*DEFINE_CURVE\n2\n0.,0.\n1.0,{}\n*END\n",
       material, control, at_2, at_3);
 }
-const std::string elastic = "*MAT_ELASTIC\n1,1000.,2.E8,0.3\n",
-                  plastic = "*MAT_PIECEWISE_LINEAR_PLASTICITY\n1,1000.,2.E8,0.3,1.E6\n\n\n\n";
+const std::string elastic_steel = "*MAT_ELASTIC\n1,1000.,2.E8,0.3\n",
+                  plastic_steel = "*MAT_PIECEWISE_LINEAR_PLASTICITY\n1,1000.,2.E8,0.3,1.E6\n\n\n\n";
 
 Real thickness_after(const std::string& deck) {
   auto s = simulation_of(deck);
@@ -42,7 +42,7 @@ std::int64_t deleted(const std::string& deck) {
   return found == s->world().counters.end() ? 0 : found->second;
 }
 
-std::string cube(const std::string& rest) {
+std::string body_cube(const std::string& rest) {
   return "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*MAT_RIGID\n2,2.0,200.0,0.3\n*SECTION_SOLID\n2,1\n*"
          "PART\ncube\n"
          "2,2,2\n*NODE\n11,0.,0.,0.\n12,1.,0.,0.\n13,1.,1.,0.\n14,0.,1.,0.\n15,0.,0.,1.\n16,1.,0.,1.\n"
@@ -67,11 +67,12 @@ TEST(CrashControls, ThicknessByFlowAlone) {
   const std::string all = "*CONTROL_SHELL\n20.,1,-1,1\n", flow = "*CONTROL_SHELL\n20.,1,-1,4\n",
                     thick = "*CONTROL_SHELL\n20.,1,-1,2\n";
   const Real e = std::log(1.02);
-  EXPECT_NEAR(std::log(thickness_after(pulled_shell(elastic, all, 0.02, 0.02)) / 0.01), -0.3 / 0.7 * e, 1e-4);
-  EXPECT_EQ(thickness_after(pulled_shell(elastic, flow, 0.02, 0.02)), 0.01);
-  EXPECT_EQ(thickness_after(pulled_shell(elastic, thick, 0.02, 0.02)), 0.01) << "2 is of thick shells";
-  const Real by_all = std::log(thickness_after(pulled_shell(plastic, all, 0.02, 0.02)) / 0.01),
-             by_flow = std::log(thickness_after(pulled_shell(plastic, flow, 0.02, 0.02)) / 0.01);
+  EXPECT_NEAR(std::log(thickness_after(pulled_shell(elastic_steel, all, 0.02, 0.02)) / 0.01), -0.3 / 0.7 * e,
+              1e-4);
+  EXPECT_EQ(thickness_after(pulled_shell(elastic_steel, flow, 0.02, 0.02)), 0.01);
+  EXPECT_EQ(thickness_after(pulled_shell(elastic_steel, thick, 0.02, 0.02)), 0.01) << "2 is of thick shells";
+  const Real by_all = std::log(thickness_after(pulled_shell(plastic_steel, all, 0.02, 0.02)) / 0.01),
+             by_flow = std::log(thickness_after(pulled_shell(plastic_steel, flow, 0.02, 0.02)) / 0.01);
   const Real of_elastic = -0.3 / 2e8 * std::sqrt(3.0) * 1e6;
   EXPECT_NEAR(by_all - by_flow, of_elastic, 0.03 * std::abs(of_elastic));
   EXPECT_NEAR(by_flow, -(e - 0.7 / 2e8 * std::sqrt(3.0) * 1e6), 0.02 * e) << "flow keeps the volume";
@@ -81,7 +82,7 @@ TEST(CrashControls, PartsWhoseThicknessFollows) {
   const std::string sets = "*SET_PART_LIST\n7\n1\n*SET_PART_LIST\n8\n2\n*PART\nother\n2,1,1\n";
   const auto after = [&](const char* card) {
     return thickness_after(
-        pulled_shell(elastic, sets + "*CONTROL_SHELL\n20.,1,-1,1\n\n" + card + "\n", 0.02, 0.02));
+        pulled_shell(elastic_steel, sets + "*CONTROL_SHELL\n20.,1,-1,1\n\n" + card + "\n", 0.02, 0.02));
   };
   EXPECT_LT(after("7"), 0.01);
   EXPECT_EQ(after("8"), 0.01);
@@ -92,9 +93,9 @@ TEST(CrashControls, PartsWhoseThicknessFollows) {
 // Node 3 goes over the diagonal 2-4 at -1: the corner turns inwards.
 TEST(CrashControls, DistortedShellsAreDeleted) {
   const std::string stays = "*CONTROL_SHELL\n20.,1,-1,0\n", goes = stays + "\n\n1,1\n";
-  EXPECT_EQ(deleted(pulled_shell(elastic, stays, 0, -1.2)), 0);
-  EXPECT_EQ(deleted(pulled_shell(elastic, goes, 0, -1.2)), 1);
-  EXPECT_EQ(deleted(pulled_shell(elastic, goes, 0, -0.9)), 0);
+  EXPECT_EQ(deleted(pulled_shell(elastic_steel, stays, 0, -1.2)), 0);
+  EXPECT_EQ(deleted(pulled_shell(elastic_steel, goes, 0, -1.2)), 1);
+  EXPECT_EQ(deleted(pulled_shell(elastic_steel, goes, 0, -0.9)), 0);
 }
 
 // c = sqrt(E/(rho (1 - nu^2))): a shell of width 0.7 has the step 0.7/c, at the density of its mass over what
@@ -118,7 +119,7 @@ TEST(CrashControls, AnAccelerometerTurnsWithItsBody) {
       "*INITIAL_VELOCITY_GENERATION\n2,2,2.0,3.0,0.,0.\n0.5,0.5,0.5,0.,0.,1.\n"
       "*DATABASE_NODOUT\n0.1\n*DATABASE_HISTORY_NODE\n11,12\n"
       "*ELEMENT_SEATBELT_ACCELEROMETER\n1,11,12,14\n";
-  auto s = simulation_of(cube(turn));
+  auto s = simulation_of(body_cube(turn));
   Sample last;
   while (s->clock().t < 0.5)
     s->step([&](World&, const Clock&, const std::string& who) { last = s->sample(who); });
@@ -135,7 +136,7 @@ TEST(CrashControls, AnAccelerometerTurnsWithItsBody) {
 // 4 at a corner along y: a = F/m at the centre, and about z r F/J, J = m/6.
 TEST(CrashControls, AForceOnANodeOfABody) {
   Real error = 1;
-  const RigidBodyReport body = body_after(cube("*LOAD_NODE_POINT\n12,2,1,0.004\n"), error);
+  const RigidBodyReport body = body_after(body_cube("*LOAD_NODE_POINT\n12,2,1,0.004\n"), error);
   EXPECT_NEAR(body.v[1], 0.002, 1e-5);
   EXPECT_NEAR(body.omega[2], 0.5 * 0.004 / (2.0 / 6), 1e-4);
   EXPECT_LT(error, 0.01);
@@ -148,7 +149,7 @@ TEST(CrashControls, AFollowerForceTurnsWithItsNodes) {
   const std::string turn =
       "*INITIAL_VELOCITY_GENERATION\n2,2,3.0,0.,0.,0.\n0.5,0.5,0.5,0.,0.,1.\n"
       "*SET_NODE_LIST\n1\n12,13,16,17\n*LOAD_NODE_SET\n1,4,1,0.25,0,12,13,16\n";
-  const RigidBodyReport body = body_after(cube(turn), error);
+  const RigidBodyReport body = body_after(body_cube(turn), error);
   EXPECT_NEAR(body.v[0], 1 / (2 * 3.0) * std::sin(3.0), 3e-3);
   EXPECT_NEAR(body.v[1], 1 / (2 * 3.0) * (1 - std::cos(3.0)), 3e-3);
   EXPECT_NEAR(body.omega[2], 3, 1e-3);
@@ -160,14 +161,14 @@ TEST(CrashControls, DampingOfBodies) {
   const std::string flies = "*INITIAL_VELOCITY_GENERATION\n2,2,3.0,2.,0.,0.\n0.5,0.5,0.5,0.,0.,1.\n";
   for (const char* card : {"*DAMPING_GLOBAL\n0,0.7\n", "*DAMPING_PART_MASS\n2,1,0.7\n"}) {
     Real error = 1;
-    const RigidBodyReport body = body_after(cube(flies + card), error);
+    const RigidBodyReport body = body_after(body_cube(flies + card), error);
     EXPECT_NEAR(body.v[0], 2 * std::exp(-0.7), 2e-3) << card;
     EXPECT_NEAR(body.omega[2], 3 * std::exp(-0.7), 3e-3) << card;
     EXPECT_LT(error, 1e-6) << card;
   }
   Real error = 1;
   const std::string along_y = "*DAMPING_PART_MASS\n2,1,0.7,1\n0.,1.,0.,0.,0.,0.\n";
-  EXPECT_NEAR(body_after(cube(flies + along_y), error).v[0], 2, 1e-12);
+  EXPECT_NEAR(body_after(body_cube(flies + along_y), error).v[0], 2, 1e-12);
 }
 
 // A block whose nodes are held along (1, 0, 1)/sqrt(2) slides down with g/2 along (1, 0, -1).
@@ -199,11 +200,11 @@ TEST(CrashControls, SupportsAlongObliqueAxes) {
 // The mean x of the face x = 1 goes from 1 with 3 past 2 at t = 1/3.
 TEST(CrashControls, ASensorOfASetEndsTheRun) {
   const auto ends = [](const char* option) {
-    auto s = simulation_of(
-        cube(fmt::format("*INITIAL_VELOCITY_GENERATION\n2,2,0.,3.0,0.,0.\n\n*SET_NODE_LIST\n1\n11,12,13,14\n"
-                         "*SENSOR_DEFINE_NODE_SET\n1,1,0,X,,COORD,{}\n*SENSOR_SWITCH\n2,SENSOR,1,GT,2.0\n*"
-                         "TERMINATION_SENSOR\n2\n",
-                         option)));
+    auto s = simulation_of(body_cube(
+        fmt::format("*INITIAL_VELOCITY_GENERATION\n2,2,0.,3.0,0.,0.\n\n*SET_NODE_LIST\n1\n11,12,13,14\n"
+                    "*SENSOR_DEFINE_NODE_SET\n1,1,0,X,,COORD,{}\n*SENSOR_SWITCH\n2,SENSOR,1,GT,2.0\n*"
+                    "TERMINATION_SENSOR\n2\n",
+                    option)));
     if (!s) return Real(0);
     const auto endings = s->world().passes.all<const Ending>();
     while (s->clock().t < 1) {

@@ -14,7 +14,7 @@ using test::start_ledger;
 namespace {
 
 /// A rigid cube of mass 2 and side 1 with its lower face at z = 0.5, x, y in 0 to 1; steps of 4e-4.
-std::string cube(const std::string& velocity, const std::string& rest, Real rwpnal = 1) {
+std::string flying_cube(const std::string& velocity, const std::string& rest, Real rwpnal = 1) {
   return fmt::format(
       "*KEYWORD\n*CONTROL_TERMINATION\n0.4\n*CONTROL_CONTACT\n0.0,{}\n*MAT_RIGID\n2,2.0,200.0,0.3\n"
       "*SECTION_SOLID\n2,1\n*PART\ncube\n2,2,2\n*NODE\n11,0.,0.,0.5\n12,1.,0.,0.5\n13,1.,1.,0.5\n14,0.,1.,0."
@@ -23,19 +23,19 @@ std::string cube(const std::string& velocity, const std::string& rest, Real rwpn
       "*INITIAL_VELOCITY\n\n{}\n{}*END\n",
       rwpnal, velocity, rest);
 }
-const std::string plane = "*RIGIDWALL_PLANAR\n0\n0.0,0.0,0.0,0.0,0.0,1.0,";
+const std::string floor_plane = "*RIGIDWALL_PLANAR\n0\n0.0,0.0,0.0,0.0,0.0,1.0,";
 
-struct End {
+struct CubeEnd {
   Vec v = Vec::Zero(), omega = Vec::Zero(), x = Vec::Zero();
   Real energy_error = 0;
   RigidWallForce wall;
 };
-End run(const std::string& deck, Real until = 0.4) {
+CubeEnd end_of(const std::string& deck, Real until = 0.4) {
   auto s = simulation_of(deck);
   if (!s) return {};
   start_ledger(*s);
   while (s->clock().t < until) s->step([](World&, const Clock&, const std::string&) {});
-  End out;
+  CubeEnd out;
   for (const auto* bodies : s->world().passes.all<const RigidBodies>()) {
     const RigidBodyReport body = bodies->reports().front();
     out.v = body.v, out.omega = body.omega, out.x = body.x;
@@ -48,7 +48,7 @@ End run(const std::string& deck, Real until = 0.4) {
 }  // namespace
 
 TEST(WallPenalty, ACubeBouncesOffAPlane) {
-  const End end = run(cube("0.5,0.0,-4.0", plane + "0.0\n"));
+  const CubeEnd end = end_of(flying_cube("0.5,0.0,-4.0", floor_plane + "0.0\n"));
   EXPECT_NEAR(end.v[2], 4, 0.04) << "the kink of the force at touch costs leapfrog its second order";
   EXPECT_NEAR(end.v[0], 0.5, 1e-12);
   EXPECT_NEAR(end.omega.norm(), 0, 1e-9);
@@ -58,7 +58,7 @@ TEST(WallPenalty, ACubeBouncesOffAPlane) {
 }
 
 TEST(WallPenalty, WithoutItBodiesGoThrough) {
-  const End end = run(cube("0.0,0.0,-4.0", plane + "0.0\n", 0));
+  const CubeEnd end = end_of(flying_cube("0.0,0.0,-4.0", floor_plane + "0.0\n", 0));
   EXPECT_EQ(end.v[2], -4);
   EXPECT_EQ(end.wall.impulse, Vec::Zero());
 }
@@ -66,8 +66,8 @@ TEST(WallPenalty, WithoutItBodiesGoThrough) {
 TEST(WallPenalty, ScaleOfAWallSoftensIt) {
   // RWKSF 0.01: ten times as deep and slow, m w^2 = 1/100 of that before
   const std::string soft = "*RIGIDWALL_PLANAR\n0,,,,,,0.01\n0.0,0.0,0.0,0.0,0.0,1.0,0.0\n";
-  auto hard = simulation_of(cube("0.0,0.0,-4.0", plane + "0.0\n"));
-  auto slow = simulation_of(cube("0.0,0.0,-4.0", soft));
+  auto hard = simulation_of(flying_cube("0.0,0.0,-4.0", floor_plane + "0.0\n"));
+  auto slow = simulation_of(flying_cube("0.0,0.0,-4.0", soft));
   Real least[2]{1, 1};
   int k = 0;
   for (auto* s : {hard.get(), slow.get()}) {
@@ -92,16 +92,16 @@ TEST(WallPenalty, AllShapesHoldBodies) {
       {"*RIGIDWALL_GEOMETRIC_SPHERE\n0\n0.5,0.5,-3000.,0.5,0.5,0.,0.0\n3000.0\n", 3.95},
   };
   for (const auto& shape : shapes) {
-    const End end = run(cube("0.0,0.0,-4.0", shape.wall));
+    const CubeEnd end = end_of(flying_cube("0.0,0.0,-4.0", shape.wall));
     EXPECT_GT(end.v[2], shape.least) << shape.wall;
     EXPECT_LT(end.energy_error, 0.01) << shape.wall;
   }
 }
 
 TEST(WallPenalty, ABodyPassesBesideAnEdge) {
-  const End beside = run(cube("0.0,0.0,-4.0",
-                              "*RIGIDWALL_GEOMETRIC_FLAT\n0\n2.,-1.,0.,2.,-1.,1.,0.0\n"
-                              "9.,-1.,0.,4.,4.\n"));
+  const CubeEnd beside = end_of(flying_cube("0.0,0.0,-4.0",
+                                            "*RIGIDWALL_GEOMETRIC_FLAT\n0\n2.,-1.,0.,2.,-1.,1.,0.0\n"
+                                            "9.,-1.,0.,4.,4.\n"));
   EXPECT_EQ(beside.v[2], -4);
 }
 
@@ -109,7 +109,7 @@ TEST(WallPenalty, ABodyPassesBesideAnEdge) {
 TEST(WallPenalty, FrictionStopsWhatSlides) {
   const std::string gravity = "*LOAD_BODY_Z\n1,10.0\n*DEFINE_CURVE\n1\n0.0,1.0\n1.0,1.0\n";
   const std::string on_it = "*RIGIDWALL_PLANAR\n0\n0.0,0.0,0.4999999,0.0,0.0,1.0,0.3\n";
-  const End end = run(cube("0.6,0.0,0.0", gravity + on_it));
+  const CubeEnd end = end_of(flying_cube("0.6,0.0,0.0", gravity + on_it));
   EXPECT_NEAR(end.v[0], 0, 5e-4) << "it rocks on its springs";
   EXPECT_NEAR(end.x[0] - 0.5, 0.06, 0.002);
   EXPECT_NEAR(end.wall.dissipated, 0.5 * 2 * 0.36, 0.01);
@@ -120,7 +120,7 @@ TEST(WallPenalty, FrictionStopsWhatSlides) {
 // Masses 2 and 3 at -4 and 1 along z: the difference turns round, the momentum stays.
 TEST(WallPenalty, AWallWithAMassTakesTheMomentum) {
   const std::string moving = "*RIGIDWALL_PLANAR_MOVING\n0\n0.0,0.0,0.0,0.0,0.0,1.0,0.0\n3.0,1.0\n";
-  const End end = run(cube("0.0,0.0,-4.0", moving));
+  const CubeEnd end = end_of(flying_cube("0.0,0.0,-4.0", moving));
   EXPECT_NEAR(2 * end.v[2] + 3 * end.wall.v[2], 2 * -4 + 3 * 1, 1e-11);
   EXPECT_NEAR(end.v[2] - end.wall.v[2], 5, 0.05);
   EXPECT_LT(end.energy_error, 0.01);
@@ -131,7 +131,7 @@ TEST(WallPenalty, ADrivenWallPushes) {
   const std::string driven =
       "*RIGIDWALL_GEOMETRIC_FLAT_MOTION\n0\n0.,0.,0.,0.,0.,1.,0.0\n5.,0.,0.,0.,0.\n"
       "1,0,0.,0.,1.\n*DEFINE_CURVE\n1\n0.0,4.0\n1.0,4.0\n";
-  const End end = run(cube("0.0,0.0,0.0", driven));
+  const CubeEnd end = end_of(flying_cube("0.0,0.0,0.0", driven));
   EXPECT_NEAR(end.v[2], 8, 0.08);
   EXPECT_LT(end.energy_error, 0.01);
 }
@@ -139,12 +139,12 @@ TEST(WallPenalty, ADrivenWallPushes) {
 // Obliquely, so that it turns: what the ledger has is all there is.
 TEST(WallPenalty, ACornerFirst) {
   const std::string oblique = "*RIGIDWALL_PLANAR\n0\n0.0,0.0,0.0,-0.2,-0.1,1.0,0.4\n";
-  const End end = run(cube("0.5,0.0,-4.0", oblique));
+  const CubeEnd end = end_of(flying_cube("0.5,0.0,-4.0", oblique));
   EXPECT_GT(end.omega.norm(), 0.5);
   EXPECT_GT(end.v[2], -2);
   EXPECT_LT(end.energy_error, 0.02);
 }
 
 TEST(WallPenalty, TheSameOnAnyThreadsAndAfterARestart) {
-  test::expect_same_bits(cube("0.5,0.0,-4.0", plane + "0.3\n"), 500, 317);
+  test::expect_same_bits(flying_cube("0.5,0.0,-4.0", floor_plane + "0.3\n"), 500, 317);
 }
