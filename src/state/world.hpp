@@ -21,6 +21,9 @@ struct EnergyLedger {
   Real potential = 0;       ///< - sum m g.x of active particles and bodies
   Real contact = 0;         ///< stored in penalty springs
   Real hourglass = 0;       ///< taken by hourglass control of elements
+  /// Share of `hourglass` that is the bending energy of elastic solids: their hourglass forces are those of
+  /// assumed strains (IHQ 6 with QM 1).
+  Real assumed_bending = 0;
   Real bulk_viscosity = 0;  ///< taken by bulk viscosity of elements
   Real dissipated = 0;      ///< by viscosity, contact damping, friction (accumulates)
   Real external_work = 0;   ///< work done on the active particles from outside: load curves, box boundary,

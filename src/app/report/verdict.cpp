@@ -165,11 +165,13 @@ constexpr Real least_internal = 0.01;
 
 void add_hourglass(const Summary& s, std::vector<Finding>& out) {
   const EnergyLedger& e = s.energy;
-  const Real internal = std::max(std::abs(e.internal), e.most_internal);
+  // bending by assumed strains is no fault of the mesh
+  const Real internal = std::max(std::abs(e.internal), e.most_internal) + e.assumed_bending;
+  const Real hourglass = e.hourglass - e.assumed_bending;
   const bool negligible = internal < least_internal * e.scale();
   const Real share =
-      e.hourglass / std::max(negligible ? 0.1 * e.scale() : internal, std::numeric_limits<Real>::min());
-  if (!(e.hourglass > least_hourglass * e.scale()) ||
+      hourglass / std::max(negligible ? 0.1 * e.scale() : internal, std::numeric_limits<Real>::min());
+  if (!(hourglass > least_hourglass * e.scale()) ||
       !(share > std::min(s.limits.hourglass_doubtful, s.limits.hourglass_broken)))
     return;
   out.push_back(

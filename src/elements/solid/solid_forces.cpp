@@ -187,8 +187,14 @@ class SolidForces : public Material,
   void record(World&, const Clock&, EnergyLedger&) override {}
   void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
     ledger.internal += total(internal_);
-    ledger.hourglass += total(hourglass_);
+    const Real hourglass = total(hourglass_);
+    ledger.hourglass += hourglass;
+    if (bends_by_assumed_strains()) ledger.assumed_bending += hourglass;
     ledger.bulk_viscosity += total(bulk_viscosity_);
+  }
+  /// Whether hourglass forces are those of the bending of the material.
+  bool bends_by_assumed_strains() const {
+    return control_.hourglass == 6 && control_.QM == 1 && history_at(*law_, "plastic_strain") < 0;
   }
   void report_part(const World& world, std::vector<PartSums>& parts) const override {
     PartSums& out = parts[static_cast<std::size_t>(group_.part)];

@@ -53,6 +53,20 @@ def test_a_hole_is_refused_with_its_position_or_closed(tmp_path: Path) -> None:
     assert not any("closed" in note for note in sound(read_shape(stl(file)), closed=True, close=True).notes)
 
 
+def test_a_file_in_millimetres_is_named(tmp_path: Path) -> None:
+    file = stl(tmp_path / "house.stl")
+    fault = fails(lambda: scene().wall(file, scale=1000, move=(-3000, -3000, -3000)).deck())
+    assert "covers all the water" in str(fault) and "scale: 0.001" in str(fault)
+
+
+def test_a_body_that_begins_in_a_wall_is_refused() -> None:
+    def with_body(x: float) -> courant.Scene:
+        return scene().body(box={"low": [x, 0.2, 0.2], "high": [x + 0.2, 0.4, 0.4]}, density=500)
+
+    assert "through a wall of the box from 0 to 1" in str(fails(lambda: with_body(0.9).deck()))
+    assert "*ELEMENT_SPH" in with_body(0.7).deck()
+
+
 def test_a_cavity_is_empty() -> None:
     outer, inner = (shapes.box(np.array([a] * 3), np.array([3.0 - a] * 3), 3) for a in (0.0, 1.0))
     both = shapes.Shape(np.concatenate([outer.points, inner.points]), np.concatenate([outer.faces, inner.faces + 8]), 3)

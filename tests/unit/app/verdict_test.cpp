@@ -182,6 +182,10 @@ TEST(Verdict, HourglassEnergyAboveATenthOfTheInternalIsDoubtful) {
   s.energy.hourglass = 0.011, s.energy.kinetic = 0.998;
   EXPECT_THAT(texts(findings(s)),
               ElementsAre(HasSubstr("hourglass energy is 11 % of a tenth of the scene's energy")));
+  s.energy = {.internal = 0.1, .hourglass = 0.4, .assumed_bending = 0.39, .external_work = 0.5, .peak = 0.5};
+  EXPECT_EQ(verdict(s), "sound") << "beams that bend by assumed strains";
+  s.energy.assumed_bending = 0.3;
+  EXPECT_EQ(verdict(s), "doubtful");
 }
 
 TEST(Verdict, ClampsErrorsAndRangesSpeakAgainstARun) {

@@ -41,6 +41,7 @@ class BasinReader(ShapeReader):
             self.read_method(root, basin)
         if self.diagnostics.errors == before:
             self.fill(basin)
+            self.check_solids(basin)
         if self.diagnostics.errors > before:
             return
         if fault := basin.complete():
@@ -140,6 +141,24 @@ class BasinReader(ShapeReader):
                 else:
                     self.read_body(entry, solid)
                 basin.solids.append(solid)
+
+    def check_solids(self, basin: Basin) -> None:
+        """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""
+        names = ("left", "right", "bottom", "top") if basin.dim == 2 else ("left", "right", "front", "back", "bottom", "top")
+        water = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
+        for solid in basin.solids:
+            low, high = np.array(solid.shape.low, float)[:basin.dim], np.array(solid.shape.high, float)[:basin.dim]
+            name = solid.shape.name or "a solid"
+            if solid.closed and water and all((low <= a[:basin.dim]).all() and (high >= b[:basin.dim]).all() for a, b in water):
+                size = " x ".join(f"{length:g}" for length in high - low)
+                self.diagnostics.error(solid.where, f"'{name}', {size}, covers all the water", "is its file in millimetres? 'scale: 0.001' makes metres of them")
+            for k in range(basin.dim if solid.free and basin.box else 0):
+                ends = basin.box[0][k], basin.box[1][k]  # type: ignore[index]
+                tiny = 1e-6 * basin.spacing
+                beyond = (low[k] < ends[0] - tiny and names[2 * k] not in basin.open) or (high[k] > ends[1] + tiny and names[2 * k + 1] not in basin.open)
+                if beyond:
+                    self.diagnostics.error(solid.where, f"'{name}' reaches from {low[k]:g} to {high[k]:g} along {'xyz'[k]}, through a wall of the box from "
+                                           f"{ends[0]:g} to {ends[1]:g}", "a body that begins in a wall is not held by it")
 
     @staticmethod
     def _is_closed(shape: Shape) -> bool:
