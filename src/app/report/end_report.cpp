@@ -70,9 +70,10 @@ std::string duration(double seconds) {
 }
 
 std::string state_in_words(const World& world) {
+  const std::string energy = fmt::format("energy ratio {:.4f}", 1 + energy_ratio_change(world.energy) / 100);
+  if (world.particles.size() == 0) return energy;
   const auto leaked = world.counters.find("leaked_particles");
-  return fmt::format("{} active  energy ratio {:.4f}  leaked {}", world.particles.active,
-                     1 + energy_ratio_change(world.energy) / 100,
+  return fmt::format("{} active  {}  leaked {}", world.particles.active, energy,
                      leaked == world.counters.end() ? 0 : leaked->second);
 }
 
@@ -89,12 +90,16 @@ std::vector<std::string> end_report(const Summary& s) {
   add_timing(s, out);
   out.push_back(fmt::format(" Problem time       = {:12.5E}", s.time));
   out.push_back(fmt::format(" Problem cycle      = {}", s.steps));
-  out.push_back(fmt::format(
-      " Total CPU time     = {:.1f} s, {:.0f} ns per particle and step; elapsed {:.1f} s, {:.0f} ns",
-      s.cpu_seconds, s.ns_per_particle_step(), s.wall_seconds, s.elapsed_ns_per_particle_step()));
+  const bool particles = s.particles > 0;
+  out.push_back(particles ? fmt::format(" Total CPU time     = {:.1f} s, {:.0f} ns per particle and step; "
+                                        "elapsed {:.1f} s, {:.0f} ns",
+                                        s.cpu_seconds, s.ns_per_particle_step(), s.wall_seconds,
+                                        s.elapsed_ns_per_particle_step())
+                          : fmt::format(" Total CPU time     = {:.1f} s; elapsed {:.1f} s", s.cpu_seconds,
+                                        s.wall_seconds));
   out.push_back(output_line(s));
-  out.push_back(fmt::format(" leaked particles {}, largest penetration {:.4g} [L], {}", s.leaked_particles,
-                            s.max_penetration, energy_line(s.energy)));
+  out.push_back((particles ? fmt::format(" leaked particles {},", s.leaked_particles) : std::string()) +
+                fmt::format(" largest penetration {:.4g} [L], {}", s.max_penetration, energy_line(s.energy)));
   for (const std::string& line : range_lines(s.ranges)) out.push_back(line);
   for (const std::string& warning : end_warnings(s)) out.push_back(" " + warning);
   if (!s.verdict.empty()) out.push_back(verdict_line(s));
