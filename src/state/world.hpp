@@ -15,12 +15,12 @@ namespace courant {
 
 /// Energies that accumulate over the run or hold at t^n. dimension of all: ML2/T2 (in 2D per unit depth)
 struct EnergyLedger {
-  Real kinetic = 0;         ///< of particles and bodies, with half-step velocities as LS-DYNA does
-  Real internal = 0;        ///< of active particles: volume work (and heat where the EOS uses it)
-  Real discrete = 0;        ///< share of springs and dampers in `internal`
-  Real potential = 0;       ///< - sum m g.x of active particles and bodies
-  Real contact = 0;         ///< stored in penalty springs
-  Real hourglass = 0;       ///< taken by hourglass control of elements
+  Real kinetic = 0;    ///< of particles and bodies, with half-step velocities as LS-DYNA does
+  Real internal = 0;   ///< of active particles: volume work (and heat where the EOS uses it)
+  Real discrete = 0;   ///< share of springs and dampers in `internal`
+  Real potential = 0;  ///< - sum m g.x of active particles and bodies
+  Real contact = 0;    ///< stored in penalty springs
+  Real hourglass = 0;  ///< taken by hourglass control of elements
   /// Share of `hourglass` that is the bending energy of elastic solids: their hourglass forces are those of
   /// assumed strains (IHQ 6 with QM 1).
   Real assumed_bending = 0;

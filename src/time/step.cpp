@@ -132,8 +132,8 @@ void Stepper::stop_below_dtmin(const Clock& clock) {
 
 void sample_energy(World& world, const Clock& clock) {
   EnergyLedger& e = world.energy;
-  e.kinetic = e.internal = e.discrete = e.potential = e.contact = e.hourglass = e.assumed_bending = e.bulk_viscosity =
-      e.half_step = e.below = 0;
+  e.kinetic = e.internal = e.discrete = e.potential = e.contact = e.hourglass = e.assumed_bending =
+      e.bulk_viscosity = e.half_step = e.below = 0;
   for (EnergyTerm* term : world.passes.all<EnergyTerm>()) term->sample(world, clock, e);
 }
 

@@ -135,8 +135,8 @@ def completed(*words):
 
 for one in calls:
     page = open(f"manual/courant-{one}.1").read().replace("\\-", "-")
-    options = set(re.findall(r"(?<![\w-])(--[a-z][a-z-]*)", call("help", one)[1].split("Options:")[1]))
-    check(set(re.findall(r"^\.BI? \"?.*?(--[a-z-]+)", page, re.M)) == options and "--help" in options, f"manual/courant-{one}.1: {options}")
+    options = set(re.findall(r"(?<![\w-])(--[a-z][a-z0-9-]*)", call("help", one)[1].split("Options:")[1]))
+    check(set(re.findall(r"^\.BI? \"?.*?(--[a-z0-9-]+)", page, re.M)) == options and "--help" in options, f"manual/courant-{one}.1: {options}")
     check(options <= set(completed(one, "-")), f"bash completes the options of {one}: {completed(one, '-')}")
 check(set(calls) <= set(completed("")) and completed("ver") == ["verify"], "bash completes calls")
 check(completed("keywords", "MAT_NU") == ["MAT_NULL"] and completed("keywords", "mat_nu") == ["MAT_NULL"], "bash completes names of keywords")

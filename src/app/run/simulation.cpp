@@ -69,8 +69,8 @@ std::unique_ptr<Simulation> Simulation::from_deck(const std::string& deck_path, 
 }
 
 std::unique_ptr<Simulation> Simulation::from_read_deck(const std::string& deck_path, Deck deck,
-                                                  Diagnostics& diagnostics, const DeckRecord* before,
-                                                  RunPhase phase) {
+                                                       Diagnostics& diagnostics, const DeckRecord* before,
+                                                       RunPhase phase) {
   std::unique_ptr<Simulation> s(new Simulation);
   for (const char* row : {"keyword reader", "set-up"}) s->timer_.row(row);  // stand first
   s->deck_ = std::move(deck);

@@ -311,6 +311,13 @@ bool CardReader::keeps_zeros(std::size_t card, const FieldSpec& spec) const {
   return spec.type == FieldType::ids && (spec_->cards[card].is_table || spec.rules.pairs);
 }
 
+/// A value for what is blank or faulty, so that the lists of a table have a member for each card.
+void CardReader::fill_list(std::size_t card, const FieldSpec& spec, std::size_t field, EntrySink& sink) {
+  if (spec.type == FieldType::reals) sink.set_real(card, field, 0);
+  if (spec.type == FieldType::texts) sink.set_text(card, field, "");
+  if (keeps_zeros(card, spec)) sink.set_integer(card, field, 0);
+}
+
 void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink) {
   const FieldSpec& spec = spec_->cards[card].fields[field];
   if (spec.type == FieldType::skip) {
@@ -324,63 +331,66 @@ void CardReader::read_field(std::size_t card, std::size_t field, Slice slice, En
                   spec.rules.allowed.empty()
                       ? ""
                       : fmt::format("supported values: {}", fmt::join(spec.rules.allowed, ", ")));
-    if (spec.type == FieldType::reals) sink.set_real(card, field, 0);
-    if (spec.type == FieldType::texts) sink.set_text(card, field, "");
-    if (keeps_zeros(card, spec)) sink.set_integer(card, field, 0);
-    return;  // the entry began with the standard values
+    return fill_list(card, spec, field, sink);  // the entry began with the standard values
   }
   std::string held;
   const bool text = spec.type == FieldType::text || spec.type == FieldType::texts;
   if (text) {
-    if (!substitute_texts(card, field, slice, held)) return;
-    if (spec.rules.honour == Honour::no) return field_refused(card, field, slice, "leave the field blank");
+    if (!substitute_texts(card, field, slice, held)) return fill_list(card, spec, field, sink);
+    if (spec.rules.honour == Honour::no) {
+      field_refused(card, field, slice, "leave the field blank");
+      return fill_list(card, spec, field, sink);
+    }
     sink.set_text(card, field, without_controls(slice.text));
     return;
   }
-  if (Parameters::is_reference(slice.text) && !substitute(card, field, slice, held)) return;
-  if (is_whole(spec.type)) {
-    read_integer(card, field, slice, sink);
-  } else {
-    read_real(card, field, slice, sink);
-  }
+  const bool known = !Parameters::is_reference(slice.text) || substitute(card, field, slice, held);
+  if (!known ||
+      !(is_whole(spec.type) ? read_integer(card, field, slice, sink) : read_real(card, field, slice, sink)))
+    fill_list(card, spec, field, sink);
 }
 
-void CardReader::read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink) {
+/// Whether the number is sound.
+bool CardReader::read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink) {
   const FieldSpec& spec = spec_->cards[card].fields[field];
   Id value = 0;
   if (!parse_integer(slice.text, value)) {
     field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text),
                 number_hint(slice.text));
-    return;
+    return false;
   }
   if (value == 0 && spec.type == FieldType::ids) {
     if (keeps_zeros(card, spec)) sink.set_integer(card, field, 0);
-    return;
+    return true;
   }
-  if (value == 0 && spec.rules.zero_is_standard && !spec.rules.required) return;
+  if (value == 0 && spec.rules.zero_is_standard && !spec.rules.required) return true;
   if (spec.rules.required && value == 0 && spec.type == FieldType::id && spec.rules.check == Check::any) {
     field_error(card, field, slice, "expected an id that is not 0, got '0'");
-    return;
+    return false;
   }
   const Id largest = spec.type == FieldType::integer ? std::numeric_limits<int>::max() : largest_id;
   if (value > largest || value < -largest) {
     field_error(card, field, slice, fmt::format("'{}' is too large", slice.text));
-    return;
+    return false;
   }
-  if (!passes(card, field, slice, static_cast<Real>(value)) || !is_allowed(card, field, slice, value)) return;
+  if (!passes(card, field, slice, static_cast<Real>(value)) || !is_allowed(card, field, slice, value))
+    return false;
   sink.set_integer(card, field, value);
+  return true;
 }
 
-void CardReader::read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink) {
+bool CardReader::read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink) {
   const FieldSpec& spec = spec_->cards[card].fields[field];
   Real value = 0;
   if (!parse_real(slice.text, value)) {
     field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text),
                 number_hint(slice.text));
-    return;
+    return false;
   }
-  if (value == 0 && !spec.is_vector() && spec.rules.zero_is_standard && !spec.rules.required) return;
-  if (passes(card, field, slice, value)) sink.set_real(card, field, value);
+  if (value == 0 && !spec.is_vector() && spec.rules.zero_is_standard && !spec.rules.required) return true;
+  if (!passes(card, field, slice, value)) return false;
+  sink.set_real(card, field, value);
+  return true;
 }
 
 bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held) {

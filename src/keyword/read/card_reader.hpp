@@ -49,8 +49,9 @@ class CardReader {
   bool warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card);
   bool keeps_zeros(std::size_t card, const FieldSpec& spec) const;
   void read_field(std::size_t card, std::size_t field, Slice slice, EntrySink& sink);
-  void read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
-  void read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
+  void fill_list(std::size_t card, const FieldSpec& spec, std::size_t field, EntrySink& sink);
+  bool read_integer(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
+  bool read_real(std::size_t card, std::size_t field, const Slice& slice, EntrySink& sink);
   /// Replaces "&name" or "<expression>" by its value; false if that failed. `held` keeps the text.
   bool substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held);
   /// Replaces each &name of a text parameter; other names must be those of a whole field.

@@ -18,6 +18,8 @@ IdSpace entry_space(const A& card) {
   return card.of_wall() ? IdSpace::rigid_wall : card.of_contact() ? IdSpace::contact : IdSpace::none;
 }
 
+constexpr FieldRules unsupported_part{.honour = unsupported.honour, .refers = IdSpace::part};
+
 const RegisterKeyword<A> automatic_switch{
     {.names = {"DEFORMABLE_TO_RIGID_AUTOMATIC"},
      .purpose = "parts that become rigid, or deformable again, while the run goes on: at a time, or when a "
@@ -90,7 +92,7 @@ const RegisterKeyword<A> automatic_switch{
                      {"PTYPE", &A::soft_ptype, "-", "PART or blank; PSET: PID is a set"}},
           .repeat = true,
           .more = [](const A& card) { return static_cast<int>(card.soft_pid.size()) < card.r2d; }},
-         {.fields = {{"PID", &A::spare_pid, "-", "no more parts than D2R and R2D say", unsupported},
+         {.fields = {{"PID", &A::spare_pid, "-", "no more parts than D2R and R2D say", unsupported_part},
                      {"LRB", &A::spare_lrb, "-", "of none", no_effect},
                      {"PTYPE", &A::spare_ptype, "-", "of none", no_effect}},
           .optional = true,

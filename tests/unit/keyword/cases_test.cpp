@@ -49,7 +49,7 @@ TEST(Cases, FaultsAreNamed) {
   EXPECT_NE(fault("*CASE_BEGIN_1\n*A\n").find("deck.k:1"), std::string::npos);
   EXPECT_NE(fault("*CASE_END_1\n").find("without a *CASE_BEGIN_1"), std::string::npos);
   EXPECT_NE(fault("*CASE_BEGIN_x\n").find("is not understood"), std::string::npos);
-  EXPECT_NE(fault("*CASE\n1\nmemory=20m\n1\n" + blocks).find("COMMANDS"), std::string::npos);
+  EXPECT_NE(fault("*CASE\n1\ncheck=7\n1\n" + blocks).find("COMMANDS"), std::string::npos);
   EXPECT_NE(fault("*CASE\n1         a/b\n\n1\n" + blocks).find("no name of a folder"), std::string::npos);
   EXPECT_NE(fault("*CASE\n1         x\n\n1\n*CASE\n2         x\n\n1\n" + blocks).find("two cases are named"),
             std::string::npos);

@@ -59,7 +59,7 @@ TEST(KeywordState, IsWhatTheReaderDoes) {
   EXPECT_EQ(history.state, KeywordState::partly);
   EXPECT_EQ(history.warned, std::vector<std::string>{"OPTION1"});
   EXPECT_EQ(told_of("*DATABASE_SLEOUT\n0.1,0,0,1,1.\n").warnings(), 1);
-  EXPECT_EQ(history.limited, std::vector<std::string>{"IOOPT (1, 2, 3)"});
+  EXPECT_EQ(history.limited, (std::vector<std::string>{"BINARY (0, 1, 2, 3)", "IOOPT (1, 2, 3)"}));
   EXPECT_EQ(told_of("*DATABASE_SLEOUT\n0.1,0,0,4\n").errors(), 1);
   EXPECT_EQ(told_of("*DATABASE_SLEOUT\n0.1,0,0,3\n").errors(), 0);
 }

@@ -25,6 +25,7 @@ const std::map<std::string, const char*> plain_numbers = {
     {"CONSTRAINED_INTERPOLATION ICID", "a number among interpolations"},
     {"CONSTRAINED_INTERPOLATION IDOF", "digits of degrees of freedom"},
     {"CONTROL_TERMINATION ENDCYC", "a number of steps, which may be large"},
+    {"ELEMENT_SEATBELT_ACCELEROMETER SBACID", "a number among accelerometers"},
     {"DEFORMABLE_TO_RIGID_AUTOMATIC SWSET", "a number among switches"},
     {"DEFORMABLE_TO_RIGID_AUTOMATIC ENTNO", "of a wall or a contact, by CODE"},
     {"DEFORMABLE_TO_RIGID_AUTOMATIC RELSW", "a number among switches"},
