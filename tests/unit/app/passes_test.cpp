@@ -1,4 +1,6 @@
 // Only what a scene needs: the whole list of passes, active and left out with the reason, scene by scene.
+#include <gmock/gmock.h>
+
 #include <sstream>
 
 #include "small_scene.hpp"
