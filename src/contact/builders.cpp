@@ -18,10 +18,6 @@ namespace courant {
 
 namespace {
 
-void number(Deck& deck, Diagnostics& diagnostics) {
-  number_contacts(deck, diagnostics);
-}
-
 void ask_for_inner_faces(const Deck& deck, InnerFaces& faces) {
   const std::vector<ContactCard> contacts(deck.all<ContactCard>());
   faces.wanted = std::any_of(contacts.begin(), contacts.end(),
@@ -86,7 +82,7 @@ void add_contacts_of_nodes(const Deck& deck, const Model& model, World& world, D
   add_edge_contacts(deck, model, options, nodes, world, diagnostics);
 }
 
-const RegisterBuilder numbers(BuildPhase::model, "numbers of contacts", number, Errors::go_on);
+const RegisterBuilder numbers(BuildPhase::model, "numbers of contacts", number_contacts, Errors::go_on);
 const RegisterBuilder inner(BuildPhase::parts, "faces between elements", ask_for_inner_faces, Errors::go_on);
 const RegisterBuilder walls(BuildPhase::parts, "penalty of walls", read_wall_penalty, Errors::go_on);
 const RegisterBuilder ties(BuildPhase::ties, "tied contacts", tie);

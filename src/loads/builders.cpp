@@ -63,10 +63,6 @@ void join_nodes(const Deck& deck, const Model& model, World& world, Diagnostics&
     left_out.add("node sets that move alike", "no *CONSTRAINED_NODE_SET");
 }
 
-void check(const Deck& deck, const World& world, Diagnostics& diagnostics) {
-  check_sensors(deck, world, diagnostics);
-}
-
 const RegisterBuilder relaxation(BuildPhase::model, "relaxation", find_relaxation, Errors::go_on);
 const RegisterBuilder interpolation(BuildPhase::ties, "interpolation", interpolate);
 const RegisterBuilder loads(BuildPhase::conditions, "loads on points", find_loads, Errors::go_on);
@@ -74,7 +70,7 @@ const RegisterBuilder motions(BuildPhase::conditions, "prescribed motion", move_
 const RegisterBuilder walls(BuildPhase::conditions, "rigid walls", put_up_walls, Errors::go_on);
 const RegisterBuilder pressure(BuildPhase::body_passes, "pressure on faces", press_faces, Errors::go_on);
 const RegisterBuilder sets(BuildPhase::joints, "node sets", join_nodes, Errors::go_on);
-const RegisterBuilder sensors(BuildPhase::checks, "sensors", check);
+const RegisterBuilder sensors(BuildPhase::checks, "sensors", check_sensors);
 
 }  // namespace
 

@@ -174,10 +174,6 @@ void find_reference(const Model& model, const World& world, const std::vector<Pa
   });
 }
 
-void release_cards(Deck& deck) {
-  release_initial_stresses(deck);
-}
-
 const RegisterBuilder inlets(BuildPhase::model, "inlets", add_inlets, Errors::go_on);
 const RegisterBuilder parts(BuildPhase::parts, "materials of particles", find_parts, Errors::go_on);
 const RegisterBuilder particles(BuildPhase::particles, "particles", make_particles, Errors::go_on);
@@ -186,7 +182,7 @@ const RegisterBuilder lists(BuildPhase::conditions, "neighbours", find_neighbour
 const RegisterBuilder walls(BuildPhase::flow, "rigid walls of particles", warn_of_walls, Errors::go_on);
 const RegisterBuilder pressures(BuildPhase::flow, "pressures", set_pressures, Errors::go_on);
 const RegisterBuilder passes(BuildPhase::flow, "passes of particles", add_passes);
-const RegisterBuilder cards(BuildPhase::checks, "release of initial stresses", release_cards);
+const RegisterBuilder cards(BuildPhase::checks, "release of initial stresses", release_initial_stresses);
 const RegisterBuilder reference(BuildPhase::checks, "particles at rest", find_reference);
 
 }  // namespace

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include "app/check/scene_warnings.hpp"
 #include "extension/part_values.hpp"
+#include "keyword/source.hpp"
 #include "model/build_model.hpp"
 #include "model/transforms/included_entries.hpp"
 #include "output/ascii/text_history.hpp"
@@ -142,11 +142,8 @@ std::vector<PassNote> Simulation::outputs(bool wanted) const {
     if (on == wanted) notes.push_back({std::move(name), "no *DATABASE_" + keyword});
   };
   add("field states", "BINARY_D3PLOT", out.d3plot.asked() || out.d3plot_count > 0);
-  for (const TextHistory& file : text_histories()) {
-    std::string capitals = file.name;
-    for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    add(file.name, capitals, out.history(file.name).asked());
-  }
+  for (const TextHistory& file : text_histories())
+    add(file.name, upper_case(file.name), out.history(file.name).asked());
   return notes;
 }
 

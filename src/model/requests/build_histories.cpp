@@ -1,10 +1,10 @@
 // What is written, when, and of whom.
 #include <fmt/format.h>
 #include <algorithm>
-#include <cctype>
 #include <string_view>
 #include <unordered_set>
 
+#include "base/expression_functions.hpp"
 #include "model/model_builder.hpp"
 
 namespace courant {
@@ -54,9 +54,7 @@ void ModelBuilder::build_histories() {
   build_history_sph();
   build_history_node();
   for (const DatabaseAsciiCard& card : deck_.all<DatabaseAsciiCard>()) {
-    std::string name = deck_.keyword(card).substr(std::string_view("*DATABASE_").size());
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lower_case(deck_.keyword(card).substr(std::string_view("*DATABASE_").size()));
     OutputTimes& one = out.histories[name].times;
     one.interval = card.dt, out.histories[name].binary = card.binary;
     build_output_curve(card, "LCUR", card.lcur, card.ioopt, one);
