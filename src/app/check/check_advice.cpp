@@ -16,6 +16,7 @@ struct FlowScale {
   Real height = 0;  ///< of the particles over the lowest of particles and walls, against it [L]
   Real start = 0;   ///< largest speed at the start [L/T]
   Real speed = 0;   ///< that a fall over the height adds to [L/T]
+  Real length = 0;  ///< of the particles across it, the longer one [L]
 };
 
 FlowScale flow_scale(const Simulation& s) {
@@ -39,10 +40,15 @@ FlowScale flow_scale(const Simulation& s) {
   if (f.g > 0 && p.size() > 0) {
     const Vec up = -a / f.g;
     Real low = up.dot(p.x.vec(0)), high = low;
+    Vec least = p.x.vec(0), most = least;
     for (Index i = 0; i < p.size(); ++i) {
-      const Real z = up.dot(p.x.vec(i));
+      const Vec x = p.x.vec(i);
+      const Real z = up.dot(x);
       low = std::min(low, z), high = std::max(high, z);
+      least = least.cwiseMin(x), most = most.cwiseMax(x);
     }
+    const Vec size = most - least;
+    f.length = (size - up.cwiseAbs().cwiseProduct(size)).maxCoeff();
     const Segments& walls = s.world().segments;
     for (Index k = 0; k < walls.size(); ++k)
       for (const Index n : walls.nodes(k)) low = std::min(low, up.dot(s.world().nodes.x.vec(n)));
@@ -80,6 +86,7 @@ class ChoiceAdvice {
       smoothing_length(k);
       tension(k);
       viscous_layer(k);
+      waves(k);
       slowest_ = std::min(slowest_, m.c0());
     }
     if (std::isfinite(slowest_) && flow_.speed > 0) contacts();
@@ -152,6 +159,24 @@ class ChoiceAdvice {
         "(LAW 2 of *COURANT_WALL_SUPPORT) rubs too little where water is turbulent; type LAW = 1 and the "
         "roughness KS",
         id(k), flow_.speed, most * nu / (share * flow_.speed), dx);
+  }
+
+  /// Monaghan's viscosity is nu = Q h c/8 in the plane, Q h c/10 in space (Monaghan 2005, eq. 8.10), and a
+  /// wave of number k loses exp(-2 nu k^2 t) of its height (Lamb 1932, art. 348).
+  void waves(std::size_t k) {
+    constexpr Real most = 0.02;  // of the height in a period
+    const Real q = s_.sph().q[k].q1, L = flow_.length;
+    if (!std::holds_alternative<MonaghanViscosity>(s_.sph().viscosity) || !(flow_.g > 0) || !(L > 0)) return;
+    const Real number = 2 * pi / L;
+    const Real period = 2 * pi / std::sqrt(flow_.g * number * std::tanh(number * flow_.height));
+    const Real nu = q * facts_.parts[k].h * s_.materials()[k].c0() / (s_.world().dim == 2 ? 8 : 10);
+    const Real lost = 1 - std::exp(-2 * nu * number * number * period);
+    if (lost > most)
+      add("part {}: by artificial viscosity a wave as long as the water, {:.3g}, loses {:.2g} % of its "
+          "height in a period of {:.3g}, one of half that length {:.2g} %; if waves matter, type Q2 = "
+          "1.0E-20 of "
+          "*HOURGLASS, CSLH = 2, *COURANT_KERNEL wendland_c4 and *COURANT_DENSITY_DIFFUSION 0.1",
+          id(k), L, 100 * lost, period, 100 * (1 - std::pow(1 - lost, std::pow(2, 1.5))));
   }
 
   /// The lattice of the cubic spline resists shear (docs/theory.md, Kernel).

@@ -21,7 +21,7 @@ $#  endtim    endcyc     dtmin    endeng    endmas     nosol
 ${end:10}         0         0         0     1.0e8         0
 *CONTROL_TIMESTEP
 $#  dtinit    tssfac
-         0${tssfac:10}
+         0       0.5
 *CONTROL_SPH
 $#    ncbs     boxid        dt      idim
          1         0    1.0e20${dim:10}
@@ -36,7 +36,14 @@ $#      e0        v0
          0       1.0
 *SECTION_SPH
 $#   secid      cslh      hmin      hmax
-         1       1.2       1.0       1.0
+         1       2.0       1.0       1.0
+$ A smooth, wide kernel: gentle waves keep their height, bodies afloat feel no lattice
+*COURANT_KERNEL
+wendland_c4
+$ Diffusion of density, which leaves hydrostatic pressure alone
+*COURANT_DENSITY_DIFFUSION
+$#   delta
+       0.1
 $ Artificial viscosity: Q1 is the quadratic coefficient, off, Q2 the linear one
 *HOURGLASS
 $#    hgid       ihq        qm       ibq        q1        q2
@@ -102,19 +109,6 @@ ${output / 10:10}
 """
 
 
-_SECTION = """\
-$#   secid      cslh      hmin      hmax
-         1       1.2       1.0       1.0
-"""
-# A lattice under the cubic spline resists shear, which bodies afloat feel.
-_QUINTIC = """\
-$#   secid      cslh      hmin      hmax    sphini     death     start   sphkern
-         1       1.2       1.0       1.0       0.0    1.0e20       0.0         1
-$ Diffusion of density, which leaves hydrostatic pressure alone
-*COURANT_DENSITY_DIFFUSION
-$#   delta
-       0.1
-"""
 
 @dataclass
 class Basin:
@@ -124,7 +118,7 @@ class Basin:
     density: float = 1000.0  # [M/L3]
     sound_speed: float = 0.0  # 0: by complete() [L/T]
     speed_given: bool = False
-    viscosity: float | None = None  # linear coefficient of the artificial viscosity; None: that of the method [-]
+    viscosity: float | None = None  # linear coefficient of the artificial viscosity; None: 0 [-]
     tension: bool = True  # the water may pull
     gravity: float = 9.81  # downwards [L/T2]
     end: float = 0.0  # [T]
@@ -175,7 +169,7 @@ class Basin:
         """Of the cards."""
         return {"end": self.end, "dim": self.dim, "c0": self.sound_speed, "rho0": self.density, "pc": -1e20 if self.tension else 0.0,
                 "q": max(self.friction, 1e-20),  # 0 would be the default
-                "output": self.output, "g": self.gravity, "t": self.thickness, "tssfac": self.step_factor, "touch": 0.9999 * self.spacing,
+                "output": self.output, "g": self.gravity, "t": self.thickness, "touch": 0.9999 * self.spacing,
                 "sfsb": 1000.0 if self.dim == 2 and not self.whole_depth else 1.0}  # in 2D walls of a box are narrow strips
 
     @property
@@ -190,12 +184,8 @@ class Basin:
 
     @property
     def friction(self) -> float:
-        return self.viscosity if self.viscosity is not None else 0.05 if self.mirrors else 0.1
-
-    @property
-    def step_factor(self) -> float:
-        """TSSFAC: particles ring between a mirror and their images at 0.9, and energy comes from nowhere."""
-        return 0.5 if self.mirrors else 0.9
+        """Linear coefficient of the artificial viscosity: none, as it damps waves."""
+        return self.viscosity or 0.0
 
     @property
     def thickness(self) -> float:
@@ -244,7 +234,7 @@ def add_basin(basin: Basin, model: Model) -> None:
     if not water.pressure:
         water.pressure = basin.start()
     model.parts.append(water)
-    model.keywords.append(substitute(_CARDS.replace(_SECTION, _QUINTIC if basin.mirrors else _SECTION), variables))
+    model.keywords.append(substitute(_CARDS, variables))
     if basin.gravity > 0:
         model.keywords.append(substitute(_GRAVITY.format(axis="Y" if basin.dim == 2 else "Z"), variables))
     walls = basin.walls() if basin.box else None

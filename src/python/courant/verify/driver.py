@@ -81,6 +81,13 @@ def _locked(folder: Path, diagnostics: Diagnostics) -> Iterator[None]:
         os.close(descriptor)
 
 
+def _add_keywords(deck: Path, keywords: str) -> None:
+    """Puts cards before *END, so that those that stand twice replace the scene's."""
+    text = deck.read_text()
+    at = text.rindex("*END")
+    deck.write_text(text[:at] + keywords.rstrip("\n") + "\n" + text[at:])
+
+
 def _messages(text: str) -> list[str]:
     """What `courant generate` said is wrong: errors with the lines that belong to them."""
     parts = re.split(r"^(?=\S[^\n]*?\b(?:error|warning|note): )", text, flags=re.M)
@@ -113,7 +120,7 @@ class Verification:
             return ""
         if scene not in self.scenes:
             self.scenes[scene] = digest_of_files(scene_files(scene))
-        return digest(self.build, self.scenes[scene], scene.name, *(f"{name}={value}" for name, value in run.parameters.items()))
+        return digest(self.build, self.scenes[scene], scene.name, *(f"{name}={value}" for name, value in run.parameters.items()), run.keywords)
 
     def generate(self, run: PlannedRun, deck: Path) -> list[str]:
         """Writes the deck of a run of a scene, unless an earlier call has made the same one; returns what is wrong."""
@@ -131,6 +138,8 @@ class Verification:
             return [f"error: the program '{self.options.executable}' cannot be started: {fault.strerror}"]
         run.generated = deck
         if done.returncode == 0 and deck.is_file():
+            if run.keywords:
+                _add_keywords(deck, run.keywords)
             return []
         return _messages(done.stderr) or [f"error: `courant generate` ended with {done.returncode}: {done.stderr.strip()}"]
 

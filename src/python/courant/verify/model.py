@@ -20,6 +20,7 @@ class Setting:
     name: str
     parameters: Parameters = field(default_factory=dict)
     resolutions: list[str] = field(default_factory=list)  # for this setting alone; empty: those of the case
+    keywords: str = ""  # cards put at the end of the deck of a scene
 
 
 @dataclass

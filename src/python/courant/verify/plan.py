@@ -22,6 +22,7 @@ class PlannedRun:
     setting: str  # name of the setting, and swept values of a stability case
     resolution: str = ""  # blank: none
     parameters: Parameters = field(default_factory=dict)  # overrides handed to scene or deck
+    keywords: str = ""  # cards put at the end of the deck of a scene
     finest: bool = True  # of its setting
     folder: Path = Path()  # relative to the folder of results
     variables: Variables = field(default_factory=dict)  # values of all parameters that expressions may name
@@ -78,11 +79,11 @@ def _runs_of(number: int, case: Case, setting: Setting) -> Iterator[tuple[Planne
             alone = name and len(case.settings) == 1
             label = name if alone else ", ".join(filter(None, (setting.name, name)))
             parameters = dict(sorted({**overrides_of(case, setting, ""), **values}.items()))
-            yield PlannedRun(number, label, parameters=parameters), label
+            yield PlannedRun(number, label, parameters=parameters, keywords=setting.keywords), label
         return
     resolutions = setting.resolutions or case.resolutions or [""]
     for k, resolution in enumerate(resolutions):
-        run = PlannedRun(number, setting.name, resolution, overrides_of(case, setting, resolution), finest=k + 1 == len(resolutions))
+        run = PlannedRun(number, setting.name, resolution, overrides_of(case, setting, resolution), setting.keywords, k + 1 == len(resolutions))
         yield run, setting.name + (f"-{resolution}" if resolution else "")
 
 

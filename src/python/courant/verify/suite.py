@@ -124,8 +124,10 @@ class _CaseReader:
     def settings(self) -> list[Setting]:
         out = []
         for entry in (self.map.element(node, "setting") for node in self.map.list("settings")):
-            entry.allow("name", "parameters", "resolutions")
-            out.append(Setting(entry.text("name", required=True), _parameters(entry), _texts(entry, "resolutions")))
+            entry.allow("name", "parameters", "resolutions", "keywords")
+            if entry.has("keywords") and not self.map.has("scene"):
+                entry.error(_at(entry, "keywords"), "'keywords' belong to a case with a 'scene'", "write the cards into the deck")
+            out.append(Setting(entry.text("name", required=True), _parameters(entry), _texts(entry, "resolutions"), entry.text("keywords")))
         return out or [Setting("default")]
 
     def observation(self, map_: YamlMap) -> Observation:
