@@ -20,7 +20,7 @@ given = dict(words[k + 1].split("=", 1) for k, word in enumerate(words) if word 
 if words[0] == "generate":
     if given.get("how") == "odd":
         sys.exit(f"{words[1]}:2:3: error: how: it is odd\n  hint: be even\n1 error")
-    out.write_text("".join(f"{name}={value}\n" for name, value in given.items()))
+    out.write_text("".join(f"{name}={value}\n" for name, value in given.items()) + "*END\n")
     sys.exit()
 
 with open(os.environ["COUNT"], "a") as count:  # before what takes long on a busy machine: some calls end it soon

@@ -214,3 +214,19 @@ def test_a_missing_module_is_told_before_anything_is_run(call: Caller) -> None:
     assert done.returncode == 3
     assert done.stderr == "error: the Python module 'jinja2' is missing: apt-get install python3-jinja2\n"
     assert call.runs() == 0
+
+
+def test_settings_add_cards_to_decks_of_scenes(call: Caller) -> None:
+    call.write(SUITE.replace("{how: MORE}}", "{how: MORE}, keywords: \"*CARD\\nhow=slow\"}"))
+    call()
+    call.runs()
+    decks = [path.read_text() for path in sorted(call.folder.glob("suite_verify/runs/growth/*-10/deck.k"))]
+    assert sorted("*CARD\nhow=slow\n*END\n" in deck for deck in decks) == [False, True]
+    call()
+    assert call.runs() == 0
+    call.write(SUITE.replace("{how: MORE}}", "{how: MORE}, keywords: \"*CARD\\nhow=well\"}"))
+    call()
+    assert call.runs() == 3, "other cards are another deck"
+    call.write("cases: [{name: a, deck: deck.k, settings: [{name: b, keywords: '*CARD'}]}]")
+    (call.folder / "deck.k").write_text("*END\n")
+    assert "'keywords' belong to a case with a 'scene'" in call(code=1)

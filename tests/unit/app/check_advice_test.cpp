@@ -21,6 +21,7 @@ SmallScene fine_scene() {
   scene.n = 11;
   scene.extra = earth;
   scene.eos = "*EOS_LINEAR_POLYNOMIAL\n1,0.,4.E6\n";
+  scene.hourglass = "1,0,0,0,1.E-20,1.E-20";
   return scene;
 }
 
@@ -55,6 +56,21 @@ TEST(CheckAdvice, SoundSpeedAgainstTheFall) {
   EXPECT_EQ(advice_of(scene), "");
   scene.start = "4.,0.,0.";
   EXPECT_TRUE(holds(advice_of(scene), "sound speed 10 is 2.5 times the speed of 4 "));
+}
+
+// nu = 0.01 0.12 63.25/8, k = 2 pi, T = 0.8003: exp(-2 nu k^2 T) = 0.549; of half the length 0.183.
+TEST(CheckAdvice, ViscosityAgainstWaves) {
+  SmallScene scene = fine_scene();
+  scene.hourglass = "1,0,0,0,1.E-20,0.01";
+  EXPECT_TRUE(holds(advice_of(scene),
+                    "a wave as long as the water, 1, loses 45 % of its height in a period of 0.8, one of "
+                    "half that length 82 %"))
+      << advice_of(scene);
+  scene.hourglass = "1,0,0,0,1.E-20,3.E-4";
+  EXPECT_EQ(advice_of(scene), "");
+  scene.hourglass = "1,0,0,0,1.E-20,0.01";
+  scene.extra = "";
+  EXPECT_FALSE(holds(advice_of(scene), "wave")) << "no gravity, no waves";
 }
 
 TEST(CheckAdvice, SpacingAndSmoothingLength) {
