@@ -82,7 +82,7 @@ def _locked(folder: Path, diagnostics: Diagnostics) -> Iterator[None]:
 
 
 def _add_keywords(deck: Path, keywords: str) -> None:
-    """Puts cards before *END, so that those that stand twice replace the scene's."""
+    """Puts cards before *END, so that they replace those of the scene."""
     text = deck.read_text()
     at = text.rindex("*END")
     deck.write_text(text[:at] + keywords.rstrip("\n") + "\n" + text[at:])
