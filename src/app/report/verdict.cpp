@@ -65,16 +65,19 @@ void add_curvature(const Summary& s, std::vector<Finding>& out) {
 }
 
 /// Solids of one point that bend in modes which nothing resists. Beams of n elements over their depth miss
-/// 1/(n^2 - 1): 7 % with four, 13 % with three, 33 % with two.
+/// 1/(n^2 - 1), by which they are too soft: 7 % with four, 13 % with three, 33 % with two.
 void add_modes(const Summary& s, std::vector<Finding>& out) {
   const Real share = largest(s, "unresisted_modes").value_or(0);
   if (!(share > s.limits.hourglass_doubtful)) return;
+  const std::string effect = share < 1
+                                 ? fmt::format("displacements are too large by about {:.3g} %", 100 * share)
+                                 : std::string("almost nothing resists bending, or forces on single nodes");
   out.push_back(
-      {false, fmt::format("solids of part {:.0f} bent in hourglass modes that their hourglass control does "
-                          "not hold as the material would: {:.3g} % of the part's energy is missing, and "
-                          "what bends goes too far by about as much; take IHQ 6 with QM 1 of *HOURGLASS "
-                          "where it stays elastic, ELFORM 2, or at least four elements over the depth",
-                          largest(s, "unresisted_modes_part").value_or(0), 100 * share)});
+      {false,
+       fmt::format("solids of part {:.0f} bend in hourglass modes that hourglass control does not hold "
+                   "as the material would: {}; take IHQ 6 with QM 1 of *HOURGLASS where they stay "
+                   "elastic, ELFORM 2, or at least four elements over the depth",
+                   largest(s, "unresisted_modes_part").value_or(0), effect)});
 }
 
 /// What yields keeps what it overshoots by.

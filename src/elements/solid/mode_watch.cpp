@@ -87,7 +87,7 @@ struct WatchedSolids {
   std::vector<Index> nodes{};                                ///< their nodes
   std::vector<std::array<std::uint32_t, corners>> corner{};  ///< of each brick, among `nodes`
   std::vector<Vec> start{};                                  ///< of `nodes`
-  Real missing = 0, held = 0;                                ///< summed over the looks [ML2/T2]
+  Real missing = 0, held = 0, kinetic = 0;                   ///< summed over the looks [ML2/T2]
 
   bool dead(Index e) const { return eroded && (*eroded)[e] != 0; }
   bool yielded(Index e) const { return plastic && (*plastic)[e] > 0; }
@@ -145,11 +145,25 @@ struct WatchedSolids {
       lacks += bending_energy(at_start(b), mean, material);
       if (stores) stored += hourglass[e];
     }
-    for (Index e = 0; e < group.size(); ++e)
-      if (!dead(e)) energy += internal[e];
-    if (!std::isfinite(lacks) || !std::isfinite(energy) || !std::isfinite(stored)) return;
+    Real motion = 0;
+    for (Index e = 0; e < group.size(); ++e) {
+      if (dead(e)) continue;
+      energy += internal[e];
+      for (int c = 0; c < corners; ++c)
+        motion +=
+            0.5 * group.mass[e] * group.share(e, c) * world.nodes.v.vec(group.node.data(c)[e]).squaredNorm();
+    }
+    if (!std::isfinite(lacks + energy + stored + motion)) return;
     missing += std::max(lacks - stored, Real(0));
     held += std::abs(energy) + std::abs(stored);
+    kinetic += motion;
+  }
+  /// Where a part holds less than 1 % of its own motion, as blocks that slide or fly, only what is beyond all
+  /// of that matters.
+  Real share() const {
+    constexpr Real negligible = 0.01, instead = 10;
+    const Real of = held < negligible * kinetic ? instead * kinetic : held;
+    return of > 0 ? missing / of : 0;
   }
 };
 
@@ -167,27 +181,22 @@ class OfModes : public ShapeWatch {
   void look(World& world, std::int64_t cycle) override {
     if (cycle < next_) return;
     next_ = cycle + steps_between;
-    // where a part holds less than 1 % of what the scene is about, a tenth of that counts
-    constexpr Real negligible = 0.01, instead = 0.1;
-    scene_ += world.energy.peak;
     Real worst = 0;
     for (WatchedSolids& w : parts_) {
       w.examine(world);
-      const Real held = w.held < negligible * scene_ ? instead * scene_ : w.held;
-      const Real share = held > 0 ? w.missing / held : 0;
-      if (!(share > worst)) continue;
-      worst = share;
+      if (!(w.share() > worst)) continue;
+      worst = w.share();
       world.maxima["unresisted_modes_part"] = static_cast<Real>(w.part);
     }
     world.maxima["unresisted_modes"] = worst;
   }
   void keep(Archive& archive) override {
     archive("next", next_);
-    archive("scene", scene_);
     for (WatchedSolids& w : parts_) {
       const Archive::Group inside(archive, w.group.fields.name());
       archive("missing", w.missing);
       archive("held", w.held);
+      archive("kinetic", w.kinetic);
     }
   }
 
@@ -195,7 +204,6 @@ class OfModes : public ShapeWatch {
   static constexpr std::int64_t steps_between = 100;
   std::vector<WatchedSolids> parts_;
   std::int64_t next_ = 0;
-  Real scene_ = 0;  ///< energy of the scene, summed over the looks [ML2/T2]
 };
 
 }  // namespace

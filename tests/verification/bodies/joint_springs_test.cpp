@@ -68,7 +68,7 @@ TEST(JointSprings, ABallSwingsAndComesToRestWhereItsSpringCarriesIt) {
   const Real dt = s->clock().dt_old, omega = std::sqrt(0.1 * rps) / dt, xi = 0.1;
   const Real sag = g / (omega * omega), swings = omega * std::sqrt(1 - xi * xi);
   Real worst = 0;
-  for (int k = 1; k < 2000; ++k) {
+  for (int k = 1; k < 4000; ++k) {
     const Real t = s->clock().t;
     const Real x = -sag * (1 - std::exp(-xi * omega * t) *
                                    (std::cos(swings * t) + xi * omega / swings * std::sin(swings * t)));
@@ -97,25 +97,32 @@ TEST(JointSprings, WithoutDampingASwingGoesOn) {
   EXPECT_NEAR(lowest, -2 * sag, 0.01 * sag);
 }
 
-// Exact hinges whose axes are askew by 1e-2 hold a door.
+// Exact hinges whose axes are askew by 2e-3 and 1e-2 hold a door.
 TEST(JointSprings, ADoorWithHingesAskewGoesOnTurning) {
-  JointDeck deck = askew_door(1e-3);
-  auto s = simulation_of(deck.text(6));
-  while (s->clock().t < 6) s->step(do_nothing);
-  EXPECT_NEAR(s->bodies()->bodies().back().omega[2], 1, 0.03);
-  EXPECT_LT(largest_gap(*s), 0.02);
-  EXPECT_GT(s->world().maxima["joint_spring_gap_share"], 1e-4);
-  sample_energy(s->world(), s->clock());
-  EXPECT_LT(std::abs(s->world().energy.error()), 0.01);
+  for (const Real beside : {2e-4, 1e-3}) {
+    JointDeck deck = askew_door(beside);
+    auto s = simulation_of(deck.text(6));
+    while (s->clock().t < 6) s->step(do_nothing);
+    EXPECT_NEAR(s->bodies()->bodies().back().omega[2], 1, 0.03) << beside;
+    EXPECT_LT(largest_gap(*s), 20 * beside);
+    EXPECT_GT(s->world().maxima["joint_spring_gap_share"], 0.1 * beside);
+    sample_energy(s->world(), s->clock());
+    EXPECT_LT(std::abs(s->world().energy.error()), 0.01) << beside;
+    deck.more += exact;
+    auto locked = simulation_of(deck.text(6));
+    while (locked->clock().t < 1) locked->step(do_nothing);
+    EXPECT_LT(locked->bodies()->bodies().back().omega[2], 0.1) << "exact joints lock it " << beside;
+  }
 }
 
 // The axis goes round the centre, as both bodies are held across it: the gap is what it is off, twice.
 TEST(JointSprings, AScrewWhoseAxisIsOffTheCentreItTurnsAboutFeedsAllTheSame) {
   const Real off = 0.05;
   auto s = simulation_of(off_centre(off, "").text(40));
-  const Real start = s->bodies()->bodies()[1].x[0];
+  const auto apart = [&] { return s->bodies()->bodies()[1].x[0] - s->bodies()->bodies()[0].x[0]; };
+  const Real start = apart();
   while (s->clock().t < 40) s->step(do_nothing);
-  EXPECT_NEAR(s->bodies()->bodies()[1].x[0] - start, 4 * 6.6667, 0.01);
+  EXPECT_NEAR(start - apart(), 4 * 6.6667, 0.03);  // a step beyond 40
   EXPECT_NEAR(s->world().maxima["joint_gap"], 2 * off, 0.02 * off);
   EXPECT_THROW(
       {
