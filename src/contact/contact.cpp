@@ -258,6 +258,7 @@ void Contact::finish(World& world, const Clock&) {
     stiffest_ =
         std::max(Real(0), maximum(world.nodes.size(), [&](Index n) { return stiffness_of_node(world, n); }));
   if (deepest > 0) {
+    acted_ = true;
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
   }

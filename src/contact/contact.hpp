@@ -95,6 +95,8 @@ class Contact : public Force,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const;
+  /// Whether it has pushed anything so far.
+  bool has_acted() const { return acted_; }
 
   /// What a restart needs besides the particle fields: energies dissipated so far, the step that SOFT 1 uses,
   /// and what is known of particles near walls since neighbours were searched last.
@@ -283,6 +285,7 @@ class Contact : public Force,
   Incidence of_node_, of_segment_;
   std::vector<Index> written_;  ///< held facets whose nodes and segments have forces of this interface
   bool shown_ = false;
+  bool acted_ = false;
   Real damping_work_ = 0, friction_work_ = 0;
   bool deforms_ = false;           ///< some wall does
   Real stiffest_ = 0;              ///< bound of the largest frequency of a node that deforms, squared [1/T2]

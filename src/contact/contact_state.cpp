@@ -7,6 +7,7 @@
 namespace courant {
 
 void Contact::keep(Archive& archive) {
+  archive("acted", acted_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   archive("soft_dt", soft_dt_);

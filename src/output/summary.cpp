@@ -140,6 +140,7 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("steps", s.steps);
   if (s.restarts > 0) entry("restarts", s.restarts);
   if (!s.restart_notes.empty()) entry("restart_notes", s.restart_notes);
+  if (!s.notes.empty()) entry("notes", s.notes);
   if (!s.restart_file.empty()) entry("restart_file", s.restart_file);
   entry("wall_seconds", s.wall_seconds);
   entry("cpu_seconds", s.cpu_seconds);

@@ -72,6 +72,8 @@ struct InterfaceReporter {
   virtual ~InterfaceReporter() = default;
   /// At t^n.
   virtual InterfaceForce report() const = 0;
+  /// Whether it has pushed anything so far.
+  virtual bool has_acted() const { return true; }
 };
 
 /// A pass with fields that are only written: filled when somebody is about to.

@@ -102,6 +102,7 @@ std::vector<std::string> end_report(const Summary& s) {
                 fmt::format(" largest penetration {:.4g} [L], {}", s.max_penetration, energy_line(s.energy)));
   for (const std::string& line : range_lines(s.ranges)) out.push_back(line);
   for (const std::string& warning : end_warnings(s)) out.push_back(" " + warning);
+  for (const std::string& note : s.notes) out.push_back(" note: " + note);
   if (!s.verdict.empty()) out.push_back(verdict_line(s));
   return out;
 }

@@ -1,10 +1,38 @@
 #include "app/report/run_summary.hpp"
 
 #include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "app/run/resources.hpp"
 
 namespace courant {
+
+namespace {
+
+/// Contacts that never pushed anything, which may be meant, or not.
+std::vector<std::string> idle_contacts(Simulation& s) {
+  std::map<Id, std::pair<bool, std::string>> found;  // whether it acted, title
+  const auto add = [&](const InterfaceForce& one, bool acted) {
+    auto& of = found.try_emplace(one.id, false, one.title).first->second;
+    of.first = of.first || acted;
+  };
+  for (const auto& contact : s.contacts()) add(contact->report(), contact->has_acted());
+  for (const auto* one : s.world().passes.all<const InterfaceReporter>())
+    add(one->report(), one->has_acted());
+  std::vector<std::string> out;
+  for (const auto& [id, of] : found)
+    if (!of.first)
+      out.push_back(
+          fmt::format("contact {}{} never touched anything: if it should, look at the gap at the start, "
+                      "at what SURFA and SURFB name, and at BT and DT",
+                      id, of.second.empty() ? "" : " (" + of.second + ")"));
+  return out;
+}
+
+}  // namespace
 
 void note_end(Summary& y, Simulation& s) {
   const World& world = s.world();
@@ -18,6 +46,7 @@ void note_end(Summary& y, Simulation& s) {
   y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
   y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
   if (!std::isfinite(y.dt_min)) y.dt_min = 0;
+  y.notes = idle_contacts(s);
   if (s.has_particles()) y.counters["neighbour_rebuilds"] = s.neighbours().rebuilds();
 }
 

@@ -43,6 +43,8 @@ constexpr std::array inside{"KEYWORD",
 /// Those of the same beginnings that do.
 constexpr std::array outside{"CONSTRAINED_GLOBAL", "CONTROL_DYNAMIC_RELAXATION", "DEFINE_SPH_"};
 
+constexpr std::array weights{"LOAD_BODY_X", "LOAD_BODY_Y", "LOAD_BODY_Z", "LOAD_BODY_PARTS", "LOAD_GRAVITY"};
+
 template <std::size_t n>
 bool begins_with_one_of(std::string_view name, const std::array<const char*, n>& begins) {
   return std::any_of(begins.begin(), begins.end(), [&](const char* one) { return name.starts_with(one); });
@@ -54,10 +56,13 @@ bool held(const std::array<bool, 3>& axes) {
 
 /// Whether nothing outside acts on what moves: the deck has only keywords that describe bodies, their
 /// materials, contacts and constraints among them, and outputs; nothing is held or driven.
-bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bodies) {
+/// `weight`: its own may act.
+bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bodies, bool weight) {
   if (model.phase == RunPhase::relaxation) return false;
-  for (const auto& [name, use] : deck.keywords)
-    if (!begins_with_one_of(name, inside) || begins_with_one_of(name, outside)) return false;
+  for (const auto& [name, use] : deck.keywords) {
+    const bool weighs = weight && begins_with_one_of(name, weights);
+    if (!weighs && (!begins_with_one_of(name, inside) || begins_with_one_of(name, outside))) return false;
+  }
   for (const ModelNode& node : model.nodes)
     if (held(node.fixed)) return false;
   if (bodies)
@@ -69,9 +74,16 @@ bool is_free_system(const Deck& deck, const Model& model, const RigidBodies* bod
   return scaling.step == 0 || scaling.once;
 }
 
-void watch_momentum(const Deck& deck, const Model& model, World& world, const BodyPasses&,
-                    const std::shared_ptr<RigidBodies>& bodies) {
-  world.passes.add(std::make_shared<MomentumWatch>(is_free_system(deck, model, bodies.get())));
+void watch_momentum(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
+                    const BodyPasses&, const std::shared_ptr<RigidBodies>& bodies) {
+  const bool free = is_free_system(deck, model, bodies.get(), false);
+  world.passes.add(std::make_shared<MomentumWatch>(free));
+  const bool touches = std::any_of(deck.keywords.begin(), deck.keywords.end(),
+                                   [](const auto& one) { return one.first.starts_with("CONTACT_"); });
+  if (!model.body_loads.empty() && !free && !touches && is_free_system(deck, model, bodies.get(), true))
+    diagnostics.note(deck.location(0, 1, 1),
+                     "body loads act, and nothing holds what they move: all of it falls freely",
+                     "hold it by *BOUNDARY_SPC, *MAT_RIGID or a wall, unless it should fall");
 }
 
 const RegisterBuilder watch(BuildPhase::body_passes, "momentum", watch_momentum, Errors::go_on);

@@ -4,7 +4,7 @@
 
 #include "app/run/momentum_watch.hpp"
 #include "app/run/simulation.hpp"
-#include "elements/shell/facets.hpp"
+#include "elements/shape_watch.hpp"
 #include "extension/additions.hpp"
 #include "state/shared_fields.hpp"
 #include "state/tied_mass.hpp"
@@ -207,7 +207,7 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
   if (bodies()) s.bodies = bodies()->reports(), s.body_motions = bodies()->motions(clock_);
   sample_parts(world_, model_, s);
   for (auto* watch : world_.passes.all<MomentumWatch>()) watch->look(s, world_);
-  for (auto* watch : world_.passes.all<CurvatureWatch>()) watch->look(world_, clock_.cycle);
+  for (auto* watch : world_.passes.all<ShapeWatch>()) watch->look(world_, clock_.cycle);
   for (const auto& contact : contacts()) s.interfaces.push_back(contact->report());
   for (const auto* nodes : world_.passes.all<const InterfaceReporter>())
     add_interface(nodes->report(), s.interfaces);

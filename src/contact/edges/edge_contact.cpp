@@ -230,6 +230,7 @@ void EdgeContact::finish(World& world, const Clock&) {
         break;
       }
   }
+  acted_ = acted_ || deepest > 0;
   Real& most = world.maxima["max_penetration"];
   most = std::max(most, deepest);
   if (!asleep_ && fresh_ && (law_.birth > 0 || law_.gate.there()))
@@ -256,6 +257,7 @@ void EdgeContact::keep(Archive& archive) {
   archive("fresh", fresh_);
   archive("asleep", asleep_);
   archive("soft_dt", soft_dt_);
+  archive("acted", acted_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   if (!archive.loading()) return;

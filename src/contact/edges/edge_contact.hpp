@@ -46,6 +46,7 @@ class EdgeContact : public Force,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const override;
+  bool has_acted() const override { return acted_; }
   void keep(Archive& archive) override;
 
   /// What touches leave for all nodes; complete after `finish`.
@@ -160,6 +161,7 @@ class EdgeContact : public Force,
   StiffestContact stiffest_;
   Real due_ = 0;
   Resource touches_resource_{"touches of edges"};
+  bool acted_ = false;
   Real damping_work_ = 0, friction_work_ = 0;
   std::int64_t leaked_ = 0;  ///< touches that ended by going through, not yet counted
   Real let_go_ = 0;          ///< energy of touches that ended at once, not yet in the ledger [ML2/T2]

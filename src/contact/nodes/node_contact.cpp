@@ -275,6 +275,7 @@ void NodeContact::finish(World& world, const Clock& clock) {
   }
   sum_springs_of_bodies(world, clock);
   if (deepest > 0) {
+    acted_ = true;
     Real& most = world.maxima["max_penetration"];
     most = std::max(most, deepest);
   }
@@ -318,6 +319,7 @@ void NodeContact::keep(Archive& archive) {
   archive("soft_dt", soft_dt_);
   archive("body_springs", body_springs_);
   archive("body_push", body_push_), archive("body_turn", body_turn_);
+  archive("acted", acted_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
   if (archive.loading()) listed_once_ = false;

@@ -69,6 +69,7 @@ class NodeContact : public Force,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const override;
+  bool has_acted() const override { return acted_; }
   void keep(Archive& archive) override;
 
   /// What touches leave for all nodes; complete after `finish`.
@@ -269,6 +270,7 @@ class NodeContact : public Force,
   StiffestContact stiffest_;
   Real due_ = 0;  ///< until the next node comes through a face [T]
   Resource touches_resource_{"touches of nodes"};
+  bool acted_ = false;
   Real damping_work_ = 0, friction_work_ = 0;
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails
   std::vector<char> may_touch_;    ///< by tracked node: some face of its own is there

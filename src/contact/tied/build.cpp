@@ -335,6 +335,13 @@ class TiedBuilder {
     for (const Index n : nodes)
       if (!there.contains(n) && count++ == 0) first = world_.nodes.id[n];
     if (count == 0 && !nodes.empty()) return;
+    const bool by_parts = c.surfatyp == 2 || c.surfatyp == 3 || c.surfatyp == 5;
+    if (by_parts && !ties.empty())  // most nodes of a part are elsewhere
+      return diagnostics_.note(deck_.where(c),
+                               fmt::format("{}: {} of the {} nodes of SURFA are tied", deck_.keyword(c),
+                                           nodes.size() - count, nodes.size()),
+                               "if more should be, give the largest distance by negative SAST and SBST: 0.6 "
+                               "(|SAST| + |SBST|)");
     deck_.warning(
         diagnostics_, c, "SURFA",
         nodes.empty() ? std::string("it has no nodes of elements, so nothing is tied")

@@ -52,7 +52,7 @@ bool is_looked_at(const ShellPart& p) {
          p.laws.empty() && (p.law->history().empty() || plastic_strain_of(*p.law) >= 0);
 }
 
-class OfFacets : public CurvatureWatch {
+class OfFacets : public ShapeWatch {
  public:
   OfFacets(std::vector<Watched> groups, const World& world) : groups_(std::move(groups)) {
     for (const Watched& w : groups_)
@@ -64,6 +64,7 @@ class OfFacets : public CurvatureWatch {
     find_neighbours(world, normals(world));
     at_start_ = forms(world);
   }
+  std::string name() const override { return "curvature of shells"; }
 
   void look(World& world, std::int64_t cycle) override {
     if (cycle < next_) return;
@@ -190,7 +191,7 @@ class OfFacets : public CurvatureWatch {
 
 }  // namespace
 
-std::shared_ptr<CurvatureWatch> make_curvature_watch(const std::vector<ShellPart>& parts, World& world) {
+std::shared_ptr<ShapeWatch> make_curvature_watch(const std::vector<ShellPart>& parts, World& world) {
   std::vector<Watched> groups;
   std::size_t first = 0;
   for (const auto& group : world.groups) {

@@ -1,10 +1,9 @@
 #pragma once
-#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "elements/shape_watch.hpp"
 #include "elements/shell/shells.hpp"
-#include "state/restartable.hpp"
 
 namespace courant {
 
@@ -14,19 +13,12 @@ namespace courant {
 void note_facets(const Model& model, const std::vector<ShellPart>& parts, World& world,
                  Diagnostics& diagnostics);
 
-/// Looks, when histories are written, whether shells of one point, without BWC 1, bend without moments: the
+/// Examines whether shells of one point, without BWC 1, bend without moments: the
 /// curvature of the surface that their nodes span, less that of the start, has an energy by Koiter's theory,
 /// which moments should hold. `maxima` of the world get `unresisted_curvature`: what is missing of it, over
 /// the energy (internal and of hourglass control) of the shells, both summed over all looks; 0 where it is
 /// negligible in the scene. Shells that yielded, or end the surface, miss nothing; parts whose law is neither
-/// linear nor plastic are not looked at. [-]
-class CurvatureWatch : public Pass, public Restartable {
- public:
-  std::string name() const override { return "curvature of shells"; }
-  /// Does nothing until some steps behind the last look: a look takes as long as two steps.
-  virtual void look(World& world, std::int64_t cycle) = 0;
-};
-/// Null: there are no such shells.
-std::shared_ptr<CurvatureWatch> make_curvature_watch(const std::vector<ShellPart>& parts, World& world);
+/// linear nor plastic are not looked at. Null: there are no such shells. [-]
+std::shared_ptr<ShapeWatch> make_curvature_watch(const std::vector<ShellPart>& parts, World& world);
 
 }  // namespace courant

@@ -87,7 +87,8 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
           "*MAT_RIGID makes them rigid walls; with a material as *MAT_ELASTIC they deform");
     if (!m || !section) continue;
     const SectionShell& s = *section;
-    if (!(s.t1 > 0) && part.plies.empty() && by_part[k] && told.insert(&s).second)
+    // rigid ones may have their mass from elsewhere, or need none
+    if (!(s.t1 > 0) && !part.rigid && part.plies.empty() && by_part[k] && told.insert(&s).second)
       deck.error(diagnostics, s, "T1", fmt::format("the shells of part {} have no thickness", part.id),
                  "give a thickness > 0");
     const auto corner = [&](Real t) { return t > 0 ? t : s.t1; };

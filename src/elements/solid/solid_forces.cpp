@@ -8,6 +8,7 @@
 #include "elements/element_report.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/solid/full_points.hpp"
+#include "elements/solid/mode_watch.hpp"
 #include "elements/solid/nodal_pressure.hpp"
 #include "elements/solid/solid_axes.hpp"
 #include "elements/solid/solid_faults.hpp"
@@ -493,6 +494,7 @@ void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
     world.passes.add(std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac,
                                                    options, held, world));
   }
+  if (auto watch = make_mode_watch(parts, world)) world.passes.add(std::move(watch));
 }
 
 }  // namespace courant

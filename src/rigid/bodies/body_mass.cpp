@@ -61,6 +61,18 @@ MassIntegrals integrated(const std::vector<const Member*>& members, const std::s
   return out;
 }
 
+MassIntegrals shape_of(const std::vector<const Member*>& members, const std::set<Index>& nodes, Real weight,
+                       const World& world) {
+  MassIntegrals out{.origin = world.nodes.x.vec(*nodes.begin())};
+  for (const Member* member : members) {
+    MassIntegrals one{.origin = out.origin};
+    add_elements(*member, world, one);
+    one *= weight * member->ro;
+    out += one;
+  }
+  return out;
+}
+
 void take_mass(RigidBody& b, const MassIntegrals& sums) {
   b.m = sums.m, b.x = sums.centre();
   b.v = sums.momentum / b.m, b.L = sums.angular_momentum();

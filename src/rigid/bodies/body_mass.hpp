@@ -28,6 +28,10 @@ MassIntegrals lumped(const std::vector<Index>& nodes, const World& world);
 MassIntegrals integrated(const std::vector<const Member*>& members, const std::set<Index>& nodes, Real total,
                          const World& world);
 
+/// The elements alone, as if shells had the thickness `weight` [L] and solids the share `weight` of RO.
+MassIntegrals shape_of(const std::vector<const Member*>& members, const std::set<Index>& nodes, Real weight,
+                       const World& world);
+
 /// Mass, centre, inertia and momenta.
 void take_mass(RigidBody& body, const MassIntegrals& sums);
 /// Two bodies as one: their momenta, and inertia about the common centre.

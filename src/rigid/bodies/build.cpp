@@ -264,10 +264,31 @@ class BodyBuilder {
   bool add_spread(const std::vector<const Member*>& members, const std::set<Index>& nodes, bool any,
                   RigidBody& b) {
     const MassIntegrals at_nodes = lumped({nodes.begin(), nodes.end()}, world_);
-    if (!(at_nodes.m > 0)) return any;
+    if (!(at_nodes.m > 0)) return add_weightless(members, nodes, any, b);
     const RigidInertia* asked = deck_.last<RigidInertia>();
     RigidBody one;
     take_mass(one, asked && asked->lumped == 1 ? at_nodes : integrated(members, nodes, at_nodes.m, world_));
+    add_mass(one, any, b);
+    return true;
+  }
+  /// Shells without a thickness: of no matter where nothing can move them, which needs a place alone.
+  bool add_weightless(const std::vector<const Member*>& members, const std::set<Index>& nodes, bool any,
+                      RigidBody& b) {
+    if (any || nodes.empty() || members.empty()) return any;
+    constexpr Real negligible = 1e-9;
+    RigidBody one;
+    take_mass(one, shape_of(members, nodes, negligible, world_));
+    if (!(one.m > 0)) return any;  // errors of the elements tell why
+    if (!b.fixed()) {
+      diagnostics_.error(
+          model_.parts[b.part_index].where,
+          fmt::format("*PART {}: its rigid body can move, and has no mass: its shells have no "
+                      "thickness",
+                      b.part),
+          "give T1 of *SECTION_SHELL, or the mass by *PART_INERTIA, or hold the body (CMO 1, CON1 7 and "
+          "CON2 7 of *MAT_RIGID)");
+      return any;
+    }
     add_mass(one, any, b);
     return true;
   }

@@ -24,18 +24,17 @@ class JointReader {
   JointReader(const Deck& deck, const Model& model, const std::vector<RigidBody>& bodies, const World& world,
               Diagnostics& diagnostics)
       : deck_(deck), model_(model), bodies_(bodies), world_(world), diagnostics_(diagnostics) {
+    if (const auto* control = deck.last<ControlRigid>()) exact_ = control->lmf == 1;
     for (Index n = 0; n < world.nodes.size(); ++n) node_[world.nodes.id[n]] = n;
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (const Index n : bodies[b].nodes) body_[n] = b;
   }
 
+  bool exact() const { return exact_; }
+
   bool read(const JointCard& card, Joint& joint) {
     joint.id = card.id, joint.title = card.title, joint.kind = card.kind(), joint.advance = card.parm;
-    for (const auto& [field, value] : {std::pair("RPS", card.rps), std::pair("DAMP", card.damp)})
-      if (value != 1 && value != 0)
-        deck_.warning(diagnostics_, card, field,
-                      fmt::format("{:g} has no effect: joints hold exactly, without a penalty", value),
-                      "leave it out");
+    read_penalty(card, joint);
     if (is_gear(joint.kind) && card.parm == 0) {
       const bool rack = joint.kind == JointKind::rack_and_pinion;
       deck_.error(diagnostics_, card, "PARM",
@@ -64,6 +63,22 @@ class JointReader {
   }
 
  private:
+  /// Joints are springs where the card gives them a stiffness of their own.
+  void read_penalty(const JointCard& card, Joint& joint) {
+    constexpr Real undamped = 0.01;  // from there on down LS-DYNA has no damping, but for 0
+    joint.rps = card.rps == 0 ? 1 : card.rps;
+    joint.damp = card.damp == 0 ? 1 : card.damp <= undamped ? 0 : card.damp;
+    joint.yields = joint.rps != 1 && !exact_ && can_yield(joint);
+    const char* why = exact_ ? "LMF 1 of *CONTROL_RIGID asks for joints that hold exactly"
+                             : "joints of this kind hold exactly, without a penalty";
+    if (joint.rps != 1 && !joint.yields)
+      deck_.warning(diagnostics_, card, "RPS", fmt::format("{:g} has no effect: {}", card.rps, why),
+                    "leave it out");
+    if (joint.damp != 1 && (exact_ || !can_yield(joint)))
+      deck_.warning(diagnostics_, card, "DAMP", fmt::format("{:g} has no effect: {}", card.damp, why),
+                    "leave it out");
+  }
+
   bool error(const JointCard& card, std::size_t k, std::string message, std::string hint) {
     deck_.error(diagnostics_, card, joint_fields[k], std::move(message), std::move(hint));
     return false;
@@ -119,16 +134,26 @@ class JointReader {
     return own;
   }
 
-  /// Nodes of a pair are at one place but for the rounding of the deck: the middle counts for both.
+  /// Nodes of a pair are at one place but for the rounding of the deck: the middle counts for both, also
+  /// where they are a little apart.
   bool meet(const JointCard& card, std::size_t pair, Real size, Vec& middle) {
-    constexpr Real rounding = 1e-4, digits = 1e-6;  // of the joint, of coordinates
+    constexpr Real rounding = 1e-4, digits = 1e-6,
+                   misfit = 0.02;  // of the joint, of coordinates, of the joint
     const Vec &a = place_[2 * pair], &b = place_[2 * pair + 1];
     middle = 0.5 * (a + b);
-    if ((a - b).norm() <= std::max(rounding * size, digits * middle.norm())) return true;
-    return error(card, 2 * pair + 1,
-                 fmt::format("nodes {} and {} are {:.4g} apart", card.nodes()[2 * pair],
-                             card.nodes()[2 * pair + 1], (a - b).norm()),
-                 "the nodes of a pair must be at the same place at the start");
+    const Real gap = (a - b).norm();
+    if (gap <= std::max(rounding * size, digits * middle.norm())) return true;
+    const std::string message = fmt::format("nodes {} and {} are {:.4g} apart", card.nodes()[2 * pair],
+                                            card.nodes()[2 * pair + 1], gap);
+    if (gap <= misfit * size && !exact_) {
+      deck_.warning(
+          diagnostics_, card, joint_fields[2 * pair + 1],
+          message + fmt::format(", {:.2g} % of the joint: each body is held in the middle between them",
+                                100 * gap / size),
+          "give both the same place");
+      return true;
+    }
+    return error(card, 2 * pair + 1, message, "the nodes of a pair must be at the same place at the start");
   }
 
   /// What slides along its axis may have its nodes anywhere on that. True: they are not at one place, and all
@@ -252,6 +277,7 @@ class JointReader {
   const std::vector<RigidBody>& bodies_;
   const World& world_;
   Diagnostics& diagnostics_;
+  bool exact_ = false;  ///< LMF 1
   std::map<Id, Index> node_;
   std::map<Index, std::size_t> body_;
   std::array<Vec, 6> place_;
@@ -284,8 +310,15 @@ bool add_joints(const Deck& deck, const Model& model, std::shared_ptr<RigidBodie
     joints.push_back(joint);
   }
   if (!good || !diagnostics.ok()) return true;
-  const auto pass = std::make_shared<Joints>(std::move(joints), bodies);
-  const auto [before, after, worst] = pass->make_start_consistent(world);
+  const auto pass = std::make_shared<Joints>(std::move(joints), bodies, reader.exact());
+  const auto [before, after, worst, misfit] = pass->make_start_consistent(world);
+  if (misfit)
+    deck.warning(
+        diagnostics, cards[*misfit], "",
+        "joints of a closed loop, or what holds its bodies, almost say the same twice, and contradict "
+        "each other a little: all joints are penalty springs, which open a little",
+        "make axes parallel and places meet to all digits; take spherical and cylindrical joints "
+        "where revolute ones say the same twice; or ask for exact joints by LMF 1 of *CONTROL_RIGID");
   constexpr Real rounding = 1e-6, of_rest_energy = 1e-20;  // below: no motion that anybody gave
   const bool fits = std::abs(before - after) <=
                     std::max(rounding * std::max(before, after), of_rest_energy * bodies->rest_energy());

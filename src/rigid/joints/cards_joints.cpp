@@ -11,6 +11,7 @@ namespace courant {
 namespace {
 
 const RegisterKeyword<JointCard> joint_keyword{constrained_joint_spherical_table()};
+const RegisterKeyword<ControlRigid> control_keyword{control_rigid_table()};
 
 }  // namespace
 

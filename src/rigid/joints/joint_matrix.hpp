@@ -21,6 +21,8 @@ class JointMatrix {
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
   /// Of the last factorisation.
   bool left_out(Index row) const { return inverse_[static_cast<std::size_t>(at(row))] == 0; }
+  /// 0 of rows that are left out.
+  Real pivot(Index row) const { return left_out(row) ? 0 : 1 / inverse_[static_cast<std::size_t>(at(row))]; }
 
  private:
   int at(Index row) const { return place_[static_cast<std::size_t>(row)]; }

@@ -53,6 +53,9 @@ struct Joint {
   /// Columns: t1, t2 across the axis, the axis e. Of A and of B: one direction at t = 0, but for the axes of
   /// a universal joint and of gears.
   Matrix axes_a = Matrix::Identity(), axes_b = Matrix::Identity();
+  /// Its equations are springs and dampers; scales of their stiffness and damping (0: none).
+  bool yields = false;
+  Real rps = 1, damp = 1;
   Real advance = 0;  ///< screw, rack: of B along the axis while it, or A, turns by 1 [L]
   /// screw, motor: how far B has turned about the axis, as seen from A [-]; gears: what round-off has left
   /// of their equation so far [-], [L]

@@ -31,14 +31,23 @@ Matrix inverse_inertia(const RigidBody& b, const Clock* clock) {
   return out;
 }
 
-constexpr Real round_off = 1e-13;  // of lengths and angles that a joint may leave
-constexpr Real too_far = 1e-4;     // of its own size by which a joint may open
+constexpr Real round_off = 1e-13;        // of lengths and angles that a joint may leave
+constexpr Real too_far = 1e-4;           // of its own size by which a joint may open
+constexpr Real too_far_yielding = 0.05;  // the same of one that is a spring
+
+Index count_rows(const std::vector<Joint>& joints) {
+  Index rows = 0;
+  for (const Joint& joint : joints) rows += static_cast<Index>(rows_of(joint.kind));
+  return rows;
+}
 
 }  // namespace
 
-Joints::Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies)
+Joints::Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies, bool exact)
     : joints_(std::move(joints)),
       bodies_(std::move(bodies)),
+      exact_(exact),
+      springs_(static_cast<std::size_t>(count_rows(joints_))),
       force_(joints_.size(), Vec::Zero()),
       moment_(joints_.size(), Vec::Zero()) {
   joined_.assign(bodies_->bodies().size(), 0);
@@ -123,7 +132,7 @@ std::vector<Real> Joints::changes_of(const std::vector<BodyPose>& poses, const s
 // Of equations that follow from others, and of those about what is held, the matrix is singular, or nearly so
 // where the digits of a deck leave axes a little askew by d, which would lock a mechanism: their pivots are
 // d^2 of what free bodies would give. Those of a chain that pulls a heavy body are the ratio of the masses.
-void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock) {
+void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock, Real least) {
   inverse_.assign(bodies_->bodies().size(), {});
   for (std::size_t k = 0; k < inverse_.size(); ++k) {
     const RigidBody& b = bodies_->bodies()[k];
@@ -143,8 +152,28 @@ void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock) {
     if (m.row == m.column)
       free_[m.row] += of.free_mass * vi.squaredNorm() + of.free_inertia * wi.squaredNorm();
   }
-  constexpr Real least = 1e-9;
+  for (Index k = 0; k < first_row_.back(); ++k)
+    if (springs_.has(k)) matrix_.add(k, k, springs_.give(k, *clock) / (clock->dt * clock->dt_mean()));
   matrix_.factorise(free_, least);
+}
+
+// A tenth of what would make a joint of free bodies swing by one radian in a step.
+void Joints::add_springs(const std::vector<JointRow>& rows, const Clock& clock) {
+  constexpr Real stiffness = 0.1, damping = 0.1;  // damping: of the critical one
+  bool added = false;
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    for (Index k = first_row_[j]; joints_[j].yields && k < first_row_[j + 1]; ++k) {
+      if (springs_.has(k) || !(free_[k] > 0)) continue;
+      const Real own = joints_[j].rps * stiffness / (free_[k] * clock.dt * clock.dt);
+      springs_.add(k, own, joints_[j].damp * 2 * damping * std::sqrt(own / free_[k]),
+                   rows[static_cast<std::size_t>(k)].c);
+      added = true;
+    }
+  if (added) factorise(rows, &clock, follows_from_others);
+}
+
+void Joints::soften() {
+  for (Joint& joint : joints_) joint.yields = joint.yields || can_yield(joint);
 }
 
 std::array<Real, 2> Joints::sizes(const Joint& joint) const {
@@ -168,7 +197,8 @@ void Joints::find_rooms(const std::vector<JointRow>& rows) {
       const Joint& joint = joints_[j];
       const Real turned = is_motor(joint.kind) ? std::abs(joint.driven) : 0;  // its digits, too
       room_.push_back(round_off * ((length ? coordinates : 1) + turned));
-      too_far_.push_back(std::max(too_far * (length ? own : 1), 10 * room_.back()));
+      const Real share = joint.yields ? too_far_yielding : too_far;
+      too_far_.push_back(std::max(share * (length ? own : 1), 10 * room_.back()));
     }
   }
 }
@@ -195,7 +225,8 @@ Eigen::VectorXd Joints::find_force(const std::vector<BodyPose>& poses, const std
     Real share = 0;  // of what round-off may leave
     for (Index k = 0; k < first_row_.back(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      wrong[k] = changes[i] - target[k];
+      wrong[k] = springs_.has(k) ? springs_.wrong(k, rows[i].c, changes[i], sum_[k] + force[k], clock)
+                                 : changes[i] - target[k];
       if (!matrix_.left_out(k)) share = std::max(share, std::abs(wrong[k]) / room_[i]);
     }
     const Eigen::VectorXd more = matrix_.solve(wrong) / (clock.dt * clock.dt_mean());
@@ -212,97 +243,36 @@ Eigen::VectorXd Joints::find_force(const std::vector<BodyPose>& poses, const std
 }
 
 void Joints::look_at_gaps(const std::vector<JointRow>& rows, const std::vector<Real>& changes, World& world,
-                          const Clock& clock) const {
+                          const Clock& clock) {
   for (std::size_t j = 0; j < joints_.size(); ++j)
     for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
       const auto i = static_cast<std::size_t>(k);
       const Real gap = std::abs(rows[i].c + changes[i]);
       const RigidBody &a = bodies_->bodies()[joints_[j].a], &b = bodies_->bodies()[joints_[j].b];
       if (a.fixed() && b.fixed()) continue;
-      if (!(gap <= too_far_[i]))
+      const bool spring = springs_.has(k);
+      const bool gives_way = gap > too_far_[i] && !exact_ && !spring && can_yield(joints_[j]);
+      if (gives_way) soften();
+      if (!(gap <= too_far_[i]) && !gives_way)
         throw RunError(fmt::format(
             "t = {:g}: {} joint {} between parts {} and {} cannot be held: what drives or holds its bodies, "
-            "other joints or a step of {:.3g} that is too long for their motion do not let it",
-            clock.t, joint_name(joints_[j].kind), joints_[j].id, a.part, b.part, clock.dt));
+            "other joints or a step of {:.3g} that is too long for their motion do not let it: it is open by "
+            "{:.3g} {}",
+            clock.t, joint_name(joints_[j].kind), joints_[j].id, a.part, b.part, clock.dt, gap,
+            rows[i].is_length() ? "[L]" : "radians"));
       if (gap <= room_[i]) continue;
       const auto note = [&](const char* name, Real value) {
         Real& most = world.maxima[name];
         most = std::max(most, value);
       };
       if (rows[i].is_length()) note("joint_gap", gap);
-      note("joint_gap_share", too_far * gap / too_far_[i]);
+      note(spring ? "joint_spring_gap_share" : "joint_gap_share",
+           (spring ? too_far_yielding : too_far) * gap / too_far_[i]);
     }
-}
-
-void Joints::start_drives(const Clock& clock, World& world) {
-  for (std::size_t k = 0; k < joined_.size(); ++k) {
-    const RigidBody& b = bodies_->bodies()[k];
-    if (!tied(k)) continue;
-    for (const PrescribedMotion& motion : b.motions) {
-      if (!motion.drives(clock.t, clock.dt)) continue;
-      const Vec d = b.direction_of(motion, b.q);
-      const Real now = (motion.turns ? b.omega : b.v).dot(d);
-      const Vec change = (motion.velocity(clock.t, clock.dt, 0, now) - now) * d;
-      if (motion.turns)
-        bodies_->strike_at_start(k, Vec::Zero(), b.J0 * change, world);
-      else
-        bodies_->strike_at_start(k, b.m * change, Vec::Zero(), world);
-    }
-  }
-}
-
-Joints::Start Joints::make_start_consistent(World& world) {
-  Clock clock;
-  clock.dt = 1e-9;  // for velocities of curves where they begin
-  start_drives(clock, world);
-  Start out{bodies_->kinetic_energy(), 0, 0};
-  const std::vector<JointRow> rows = rows_at(poses_now());
-  factorise(rows, &clock);
-  constexpr int rounds = 2;  // the later one for round-off
-  Real worst = 0;
-  std::vector<Real> wanted(static_cast<std::size_t>(first_row_.back()), 0);
-  for (int round = 0; round < rounds; ++round) {
-    Eigen::VectorXd rate(first_row_.back());
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const RigidBody &a = bodies_->bodies()[joints_[j].a], &b = bodies_->bodies()[joints_[j].b];
-      for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k) {
-        const auto i = static_cast<std::size_t>(k);
-        rate[k] = rate_of(rows[i], a, b);
-        if (round == 0 && is_motor(joints_[j].kind)) wanted[i] = start_rate_of(joints_[j], rate[k], clock);
-        rate[k] -= wanted[i];
-        const Real energy = free_[k] > 0 ? rate[k] * rate[k] / free_[k] : 0;
-        if (round == 0 && energy > worst) worst = energy, out.worst = j;
-      }
-    }
-    const auto impulse = on_bodies(rows, -matrix_.solve(rate));
-    for (std::size_t k = 0; k < impulse.size(); ++k)
-      if (tied(k)) {
-        const Inverse& free = inverse_[k];  // what is driven is not struck
-        const RigidBody& b = bodies_->bodies()[k];
-        const Matrix R = b.q.toRotationMatrix();
-        bodies_->strike_at_start(k, b.m * (free.mass * impulse[k][0]),
-                                 R * b.J0 * R.transpose() * (free.inertia * impulse[k][1]), world);
-      }
-  }
-  out.after = bodies_->kinetic_energy();
-  return out;
 }
 
 Real Joints::rate_of(const JointRow& row, const RigidBody& a, const RigidBody& b) {
   return row.v_b.dot(b.v) + row.w_b.dot(b.omega) + row.v_a.dot(a.v) + row.w_a.dot(a.omega);
-}
-
-Real Joints::start_rate_of(Joint& joint, Real now, const Clock& clock) const {
-  JointDrive& drive = joint.drive;
-  switch (drive.kind) {
-    case PrescribedMotion::Kind::velocity:
-      return drive.sense * drive.curve(0);
-    case PrescribedMotion::Kind::displacement:
-      return drive.over(0, clock.dt) / clock.dt;
-    case PrescribedMotion::Kind::acceleration:
-      return drive.start_rate = now;
-  }
-  return now;
 }
 
 void Joints::begin(const Clock& clock) {
@@ -313,7 +283,8 @@ void Joints::begin(const Clock& clock) {
       joint.driven = joint.drive.until(clock.t), joint.coming = joint.drive.over(clock.t, clock.dt);
   poses_ = poses_now();
   rows_ = rows_at(poses_);
-  factorise(rows_, &clock);
+  factorise(rows_, &clock, follows_from_others);
+  add_springs(rows_, clock);
   find_rooms(rows_);
   sum_ = Eigen::VectorXd::Zero(first_row_.back());
   push(find_force(poses_, rows_, clock));
@@ -358,11 +329,13 @@ void Joints::strike(World& world, const Clock& clock) {
   const std::vector<Real> changes =
       changes_of(poses_, rows_, Eigen::VectorXd::Zero(first_row_.back()), clock);
   look_at_gaps(rows_, changes, world, clock);
+  springs_.remember(rows_, changes, clock);
   remember(rows_, sum_, changes);
 }
 
 // The work of a force along a row, by what its bodies do over both half steps that it pushes.
 void Joints::record(World&, const Clock& clock, EnergyLedger& ledger) {
+  ledger.dissipated += springs_.lost(), ledger.throughput += springs_.lost();
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     if (!is_motor(joints_[j].kind)) continue;
     const auto middle = [&](RigidBody b) {
@@ -430,6 +403,11 @@ void Joints::keep(Archive& archive) {
   std::vector<Real> turned;
   for (const Joint& joint : joints_) turned.insert(turned.end(), {joint.turned, joint.drive.start_rate});
   archive("turned", turned);
+  springs_.keep(archive);
+  std::vector<int> yields;
+  for (const Joint& joint : joints_) yields.push_back(joint.yields);
+  archive("yields", yields);
+  for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].yields = yields[j] != 0;
   for (std::size_t j = 0; j < joints_.size(); ++j)
     joints_[j].turned = turned[2 * j], joints_[j].drive.start_rate = turned[2 * j + 1];
 }

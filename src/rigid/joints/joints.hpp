@@ -5,16 +5,25 @@
 
 #include "rigid/joints/joint_matrix.hpp"
 #include "rigid/joints/joint_rows.hpp"
+#include "rigid/joints/joint_springs.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
 
 namespace courant {
 
+/// What a row adds to others, of what free bodies would give, below which it is left out.
+inline constexpr Real follows_from_others = 1e-9;
+/// Whether its equations may become springs.
+constexpr bool can_yield(const Joint& joint) {
+  return !is_motor(joint.kind) && !is_gear(joint.kind);
+}
+
 /// Joints between rigid bodies. Once dt is chosen and all other forces are known, forces along the gradients
 /// of their equations at t^n are found with which the equations hold at t^(n+1): Lagrange multipliers on
 /// positions (Ryckaert, Ciccotti and Berendsen 1977), so that places do not drift apart and no stiffness but
 /// that of what hangs in a joint limits the step. Where joints say the same twice, as in closed loops, some
-/// equations are left out, and their forces are 0.
+/// equations are left out, and their forces are 0. Where they contradict each other, as the places of a deck
+/// may in closed loops, all joints but motors and gears become penalty springs.
 class Joints : public BodyTies,
                public Impact,
                public TimeLimit,
@@ -22,8 +31,8 @@ class Joints : public BodyTies,
                public JointReporter,
                public EnergyTerm {
  public:
-  /// Refers to `bodies`.
-  Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies);
+  /// Refers to `bodies`. `exact`: none becomes a spring.
+  Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies, bool exact);
   std::string name() const override { return "joints"; }
   const std::vector<Joint>& all() const { return joints_; }
 
@@ -35,6 +44,8 @@ class Joints : public BodyTies,
   struct Start {
     Real before = 0, after = 0;  ///< kinetic energy [ML2/T2]
     std::size_t worst = 0;       ///< the joint that velocities fitted least
+    /// The first joint of a loop whose equations almost follow from others, which became springs.
+    std::optional<std::size_t> misfit{};
   };
   /// Takes from the velocities at the start what the joints do not allow, as a plastic impact does, once
   /// bodies that are driven have the velocities of their drives, which they keep.
@@ -48,7 +59,9 @@ class Joints : public BodyTies,
   void report_joints(std::vector<JointForce>& out) const override;
   /// What motors do comes from outside; other joints do no work.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
-  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+  void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
+    ledger.internal += springs_.stored();
+  }
   void keep(Archive& archive) override;
 
  private:
@@ -83,7 +96,14 @@ class Joints : public BodyTies,
   /// Force and moment about the centre on each body. [ML/T2], [ML2/T2]
   std::vector<std::array<Vec, 2>> on_bodies(const std::vector<JointRow>& rows,
                                             const Eigen::VectorXd& force) const;
-  void factorise(const std::vector<JointRow>& rows, const Clock* clock);
+  /// Leaves out rows that add less than `least` to others.
+  void factorise(const std::vector<JointRow>& rows, const Clock* clock, Real least);
+  /// Gives springs to the rows of joints that yield and have none yet.
+  void add_springs(const std::vector<JointRow>& rows, const Clock& clock);
+  /// All joints but motors and gears yield from the next step on.
+  void soften();
+  /// The first joint of a closed loop with a row that adds almost nothing to others.
+  std::optional<std::size_t> find_misfit() const;
   /// Sizes against which lengths of a joint count: of coordinates, whose round-off nobody can mend, and of
   /// the smaller of the bodies that can move [L].
   std::array<Real, 2> sizes(const Joint& joint) const;
@@ -96,7 +116,7 @@ class Joints : public BodyTies,
                              const Clock& clock) const;
   /// Throws where joints are too far open after the step.
   void look_at_gaps(const std::vector<JointRow>& rows, const std::vector<Real>& changes, World& world,
-                    const Clock& clock) const;
+                    const Clock& clock);
   /// Adds forces along the rows to the bodies and to those of the step.
   void push(const Eigen::VectorXd& force);
   /// Forces along the rows that answer a force and a moment on a body.
@@ -107,6 +127,8 @@ class Joints : public BodyTies,
 
   std::vector<Joint> joints_;
   std::shared_ptr<RigidBodies> bodies_;
+  bool exact_;
+  JointSprings springs_;
   std::vector<char> joined_;      ///< of each body, whether a joint holds it
   std::vector<Index> first_row_;  ///< of each joint, and the end
   std::vector<Meeting> meetings_;

@@ -9,6 +9,7 @@
 namespace courant {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -62,6 +63,33 @@ TEST(Verdict, RelaxationsOfYieldingAndOfFacets) {
   s.energy.internal = s.energy.hourglass = 0;
   s.maxima = {{"relaxation_ratio", 0.1}, {"relaxation_factor", 0.998}};
   EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a DRFCTR of 0.998, by its lowest frequency")));
+}
+
+TEST(Verdict, SolidsThatBendInModesThatNothingHolds) {
+  Summary s = with_error(0);
+  s.maxima = {{"unresisted_modes", 0.099}, {"unresisted_modes_part", 7}};
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["unresisted_modes"] = 0.333;
+  EXPECT_EQ(verdict(s), "doubtful");
+  EXPECT_THAT(texts(findings(s)), ElementsAre(AllOf(HasSubstr("solids of part 7 bend in hourglass modes"),
+                                                    HasSubstr("displacements are too large by about 33.3 %"),
+                                                    HasSubstr("take IHQ 6 with QM 1"))));
+  s.limits.hourglass_doubtful = 0.5;
+  EXPECT_EQ(verdict(s), "sound");
+}
+
+TEST(Verdict, SolidsThatNothingHolds) {
+  Summary s = with_error(0);
+  s.maxima = {{"unresisted_modes", 88}, {"unresisted_modes_part", 7}};
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("almost nothing resists bending")));
+}
+
+TEST(Verdict, JointsThatAreSprings) {
+  Summary s = with_error(0);
+  s.maxima = {{"joint_gap_share", 1e-4}, {"joint_spring_gap_share", 0.9e-2}};
+  EXPECT_EQ(verdict(s), "sound");
+  s.maxima["joint_spring_gap_share"] = 1.1e-2;
+  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("a penalty spring, opened by 0.011 of the size")));
 }
 
 // Mass that moving nodes get has momentum that came from nowhere.

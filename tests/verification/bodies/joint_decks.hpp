@@ -46,7 +46,9 @@ struct JointDeck {
 
   /// A joint between bodies at the given places, a node of each body at each of them; universal: the second
   /// place of B is the third one.
-  void joint(const std::string& kind, int a, int b, const std::vector<Vec>& places, Real parm = 0) {
+  /// `penalty`: fields RPS and DAMP.
+  void joint(const std::string& kind, int a, int b, const std::vector<Vec>& places, Real parm = 0,
+             const std::string& penalty = "") {
     std::string ids;
     const bool cross = kind == "UNIVERSAL";
     for (std::size_t k = 0; k < (cross ? 2 : places.size()); ++k)
@@ -55,7 +57,7 @@ struct JointDeck {
         extra += fmt::format("{:10}{:10}\n", part, node);
         ids += fmt::format("{:10}", node);
       }
-    joints += fmt::format("*CONSTRAINED_JOINT_{}_ID\n{:10}joint\n{}\n", kind, ++joint_, ids);
+    joints += fmt::format("*CONSTRAINED_JOINT_{}_ID\n{:10}joint\n{:60}{}\n", kind, ++joint_, ids, penalty);
     if (kind == "SCREW") joints += fmt::format("{:.16g}\n", parm);
   }
   /// Motors and gears: places of N1 to N4, or N6, on A and B in turn, and the second card.
