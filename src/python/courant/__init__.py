@@ -14,11 +14,13 @@ if TYPE_CHECKING:
     from .diagnostics import CourantError
     from .results import Results, open
     from .running import Run, RunFailed, check, run
+    from .live import LiveState
     from .scene.scene import Scene
+    from .steps import Steps, steps
     from .tables import Table
     from .units import Units
 
-__all__ = ["CourantError", "Results", "Run", "RunFailed", "Scene", "Table", "Units", "check", "open", "run"]
+__all__ = ["CourantError", "LiveState", "Results", "Run", "RunFailed", "Scene", "Steps", "Table", "Units", "check", "open", "run", "steps"]
 # so that the calls start before numpy is there, and can tell where it is missing
 __getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".results": ["Results", "open"],
-                                ".running": ["Run", "RunFailed", "check", "run"], ".scene.scene": ["Scene"], ".tables": ["Table"], ".units": ["Units"]})
+                                ".running": ["Run", "RunFailed", "check", "run"], ".live": ["LiveState"], ".scene.scene": ["Scene"], ".steps": ["Steps", "steps"], ".tables": ["Table"], ".units": ["Units"]})

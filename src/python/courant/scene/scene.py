@@ -186,8 +186,18 @@ class Scene:
 
     def run(self, folder: str | PathLike[str] = "results", **options: Any) -> Any:
         """Writes the deck to the folder and runs it: courant.run has the options and what is raised."""
-        from ..files import make_folder
         from ..running import run
+
+        return run(self._written_to(folder), folder, **options)
+
+    def steps(self, folder: str | PathLike[str] = "results", *, every: float = 0.0, every_steps: int = 0, **options: Any) -> Any:
+        """The same as a loop over the states while the run goes on: `for state in scene.steps(every=0.01)`, see courant.steps."""
+        from ..steps import steps
+
+        return steps(self._written_to(folder), folder, every=every, every_steps=every_steps, **options)
+
+    def _written_to(self, folder: str | PathLike[str]) -> Path:
+        from ..files import make_folder
 
         diagnostics = Diagnostics()
         try:
@@ -195,7 +205,7 @@ class Scene:
         except OutputError as fault:
             diagnostics.error(fspath(folder), str(fault))
         self._raise(diagnostics)
-        return run(self.write(Path(folder, Path(self._name).stem + ".k")), folder, **options)
+        return self.write(Path(folder, Path(self._name).stem + ".k"))
 
     # the description
 
