@@ -400,6 +400,19 @@ class Results:
         groups = [group for group in self.histories.groups if re.fullmatch(r"contacts/\d+", group)]
         return {int(group.partition("/")[2]): self.histories.table(group) for group in sorted(groups, key=lambda g: int(g[9:]))}
 
+    def wall_force(self, *ids: int) -> Table:
+        """Total force that contacts exert on their walls over time: of those with these ids (0 are the mirrors), or of all. In a scene with bodies, whose
+        contact with walls is 2, `wall_force(0, 1)` is the force of the water on walls and bodies. Raises KeyError with the ids there are."""
+        chosen = ids or tuple(self.contacts)
+        for one in chosen:
+            if one not in self.contacts and one != 0:
+                raise KeyError(f"the run has no contact {one}; it has {', '.join(map(str, self.contacts))}")
+        some = [self.contacts[one] for one in chosen if one in self.contacts]
+        if not some:
+            raise KeyError("the run has no contacts")
+        columns = [(name, some[0].units[name], -sum(one[name] for one in some)) for name in ("force.x", "force.y", "force.z")]
+        return table_of("wall force", [("t", some[0].units["t"], some[0]["t"]), *columns])
+
     def table(self, name: str) -> Table:
         """ "energies", a group of history.h5 ("contacts/1") or an ASCII history ("glstat")."""
         if name == "energies":

@@ -83,8 +83,6 @@ class Scene:
         for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "wall_method": wall_method}.items():
             if value is not None:
                 self._set(self._root, key, value, mark)
-        if wall_method is None:
-            self._set(self._root, "wall_method", "auto", mark)
         self._set(self._root, "water", {key: value for key, value in water.items() if value is not None}, mark)
         self._get("water").flow_style = False
 
