@@ -130,6 +130,8 @@ def test_a_loop_over_states(tmp_path: Path) -> None:
             break
     assert courant.open(tmp_path / "early").summary["termination"] == "interrupted"
     assert courant.open(tmp_path / "early").summary["steps"] == 7
+    for folder in ("one", "two"):
+        assert len([state.t for state in courant.steps(deck(tmp_path, 1e-3), tmp_path / folder, every=5e-4, quiet=True)]) == 4  # the end is one of its own
 
 
 def test_an_exception_ends_the_run_cleanly(tmp_path: Path) -> None:

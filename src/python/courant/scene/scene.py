@@ -103,6 +103,13 @@ class Scene:
         scene._model()
         return scene
 
+    def with_parameters(self, **parameters: Number) -> Scene:
+        """The same scene with other values for some of its parameters."""
+        other = self.__class__.__new__(self.__class__)
+        other.__dict__ |= self.__dict__
+        other._overrides = self._overrides | {name: value if isinstance(value, str) else shortest(float(value)) for name, value in parameters.items()}
+        return other
+
     # what is in it
 
     def water(self, low: Any = None, high: Point | None = None, **keys: Any) -> Scene:
@@ -190,7 +197,7 @@ class Scene:
 
     def steps(self, folder: str | PathLike[str] = "results", *, every: float = 0.0, every_steps: int = 0, **options: Any) -> Any:
         """The same as a loop over the states while the run goes on: `for state in scene.steps(every=0.01)`, see courant.steps."""
-        from ..steps import steps
+        from ..stepping import steps
 
         return steps(self._written_to(folder), folder, every=every, every_steps=every_steps, **options)
 
