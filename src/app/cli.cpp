@@ -15,7 +15,7 @@
 #include "app/load_extension.hpp"
 #include "app/manual.hpp"
 #include "app/python_program.hpp"
-#include "app/run/run_deck.hpp"
+#include "app/run_deck.hpp"
 #include "app/terminal.hpp"
 #include "keyword/help/keyword_state.hpp"
 #include "keyword/read/cases.hpp"

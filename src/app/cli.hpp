@@ -1,5 +1,5 @@
 #pragma once
-#include "app/run/run_deck.hpp"
+#include "app/run_deck.hpp"
 
 namespace courant {
 

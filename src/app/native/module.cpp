@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "app/native/live_state.hpp"
-#include "app/run/run_deck.hpp"
+#include "app/run_deck.hpp"
 #include "keyword/read/cases.hpp"
 
 namespace py = pybind11;

@@ -1,4 +1,4 @@
-#include "app/run/run_deck.hpp"
+#include "app/run_deck.hpp"
 
 #include <cmath>
 #include <optional>
