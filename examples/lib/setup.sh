@@ -5,7 +5,7 @@ project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$project/build/release
 logs=$project/build/logs
 
-build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libyaml-cpp-dev libfmt-dev libcli11-dev zlib1g-dev liblzma-dev)
+build_packages=(g++ cmake ninja-build libeigen3-dev libhdf5-dev libyaml-cpp-dev libfmt-dev libcli11-dev zlib1g-dev liblzma-dev pybind11-dev)
 picture_packages=(python3 python3-matplotlib python3-numpy python3-scipy python3-h5py python3-yaml)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev python3-jinja2 python3-pandas python3-pytest chromium valgrind)
 # VTK checks the field files and is what courant::vtk is for. Its packages cannot stand beside the Python of ParaView, which has a VTK of its own.

@@ -1,7 +1,6 @@
 #include "app/cli.hpp"
 
 #include <atomic>
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -16,15 +15,13 @@
 #include "app/load_extension.hpp"
 #include "app/manual.hpp"
 #include "app/python_program.hpp"
-#include "app/run/restart.hpp"
-#include "app/run/simulation.hpp"
+#include "app/run_deck.hpp"
 #include "app/terminal.hpp"
 #include "keyword/help/keyword_state.hpp"
 #include "keyword/read/cases.hpp"
 #include "keyword/registry.hpp"
 #include "output/file.hpp"
 #include "parallel/parallel.hpp"
-#include "parallel/thread_limit.hpp"
 
 namespace courant {
 
@@ -84,100 +81,37 @@ bool read_options(const Call& call, ReadOptions& out) {
   return true;
 }
 
-/// The same deck in the phase of its relaxation, whose messages are those of the run.
-std::unique_ptr<Simulation> build_relaxing(const Call& call) {
-  ReadOptions read;
-  Diagnostics diagnostics;
-  if (!read_options(call, read)) return nullptr;
-  auto relaxing = Simulation::build(call.deck, read, diagnostics, nullptr, RunPhase::relaxation);
-  if (!relaxing) print_error(diagnostics.text());
-  return relaxing;
-}
-
-std::unique_ptr<Simulation> build(const Call& call, const DeckRecord* before,
-                                  std::vector<std::string>& warnings) {
-  ReadOptions read;
-  if (!read_options(call, read)) return nullptr;
-  Diagnostics diagnostics;
-  auto simulation = Simulation::build(call.deck, read, diagnostics, before);
-  print_error(diagnostics.text());
-  if (!simulation) {
-    print_error(fmt::format("{} error{}; nothing was run, nothing written\n", diagnostics.errors(),
-                            diagnostics.errors() == 1 ? "" : "s"));
-    return nullptr;
-  }
-  for (const Diagnostic& d : diagnostics.all())
-    if (d.severity == Severity::warning) warnings.push_back(d.text());
-  return simulation;
-}
-
-int call_run(const Call& call) {
-  if (!std::isfinite(call.until)) {  // which CLI11 takes for positive
-    print_error(fmt::format("error: --until {}: expected a time\n", call.until));
-    return exit_input;
-  }
-  if (const std::string why = why_not_threads(call.threads); !why.empty()) {
-    print_error(fmt::format("error: {}\n", why));
-    return exit_other;
-  }
-  set_threads(call.threads);
-  std::optional<Restart> restart;
-  try {
-    if (!call.restart.empty()) restart = open_restart(call.restart);
-  } catch (const RestartError& error) {
-    print_error(fmt::format("error: {}\n", error.what()));
-    return exit_input;
-  }
-  std::vector<std::string> warnings;
-  auto simulation = build(call, restart ? &restart->deck : nullptr, warnings);
-  if (!simulation) return exit_input;
-  if (const std::string why = simulation->why_not_until(call.until); !why.empty()) {
-    print_error(fmt::format("error: --until {:g}: {}\n", call.until, why));
-    return exit_input;
-  }
-  std::unique_ptr<Simulation> relaxing;
-  if (simulation->relaxation().asked && !restart && !(relaxing = build_relaxing(call))) return exit_input;
+/// From here on signals end a run cleanly.
+void catch_signals() {
   std::signal(SIGINT, request_stop);
   std::signal(SIGTERM, request_stop);
   if (std::signal(SIGHUP, request_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
   // A limit on file sizes is then a failed write, with a message and a summary. Ctrl-C also ends the `tee`
   // that reads from here: the run still has its files to write.
   for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
-  RunOptions options;
-  options.dir = call.dir, options.until = call.until, options.warnings = warnings,
-  options.d3plot = call.d3plot;
+}
+
+int call_run(const Call& call) {
+  RunCall run;
+  run.deck = call.deck, run.restart = call.restart, run.threads = call.threads;
+  if (!read_options(call, run.read)) return exit_input;
+  run.messages = [](const Diagnostics& diagnostics) { print_error(diagnostics.text()); };
+  run.before_run = catch_signals;
+  RunOptions& options = run.options;
+  options.dir = call.dir, options.until = call.until, options.d3plot = call.d3plot;
   options.params = call.params, options.stop = &stop_requested, options.dump_at_end = !call.no_final_dump;
-  options.restart = restart ? &*restart : nullptr, options.relaxing = relaxing.get();
   if (call.one_case) options.load_case = call.one_case->id;
-  options.choose_threads = call.threads == 0;
   if (!call.quiet) {
     options.print = print_line;
     options.progress = status_line();
     if (!options.progress) options.progress = progress_lines();
     options.keyboard = keyboard_is_terminal();
   }
-  try {
-    const Summary summary = run(*simulation, call.deck, options);
-    if (summary.termination == "error") {
-      print_error(fmt::format("error: {}\n", summary.reason));
-      if (!summary.advice.empty()) print_error(fmt::format("  hint: {}\n", summary.advice));
-      return exit_run;
-    }
-    if (!call.quiet) print_text(fmt::format("results are in {}\n", call.dir));
-    if (summary.verdict != "broken") return exit_ok;
-    print_error("error: the run ended, but its results cannot be trusted (verdict: broken)\n");
-    for (const std::string& reason : summary.verdict_reasons) print_error(fmt::format("  {}\n", reason));
-    return exit_run;
-  } catch (const RestartError& error) {
-    print_error(
-        fmt::format("error: {}\n  hint: use the program that wrote the file, with the requests for output of "
-                    "the run so far\n",
-                    error.what()));
-    return exit_input;
-  } catch (const OutputError& error) {  // the folder could not be set up: nothing was run
-    print_error(fmt::format("error: {}\n", error.what()));
-    return exit_input;
-  }
+  const RunResult result = run_deck(run);
+  const bool ended = !result.summary.termination.empty() && result.summary.termination != "error";
+  if (ended && !call.quiet) print_text(fmt::format("results are in {}\n", call.dir));
+  print_error(result.error);
+  return result.exit_code;
 }
 
 int call_check(const Call& call) {

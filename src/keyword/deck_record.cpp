@@ -86,7 +86,8 @@ std::string shown(const std::string& value) {
 bool may_change(const KeywordSpec& spec) {
   const std::string& name = spec.names.front();
   return is_output_request(name) || name == "CONTROL_TERMINATION" || name == "CONTROL_CPU" ||
-         name == "COURANT_OUTPUT" || name == "COURANT_D3PLOT" || name.rfind("DEFINE_CURVE", 0) == 0;
+         name == "COURANT_OUTPUT" || name == "COURANT_D3PLOT" || name == "COURANT_PROGRAM_FORCES" ||
+         name.rfind("DEFINE_CURVE", 0) == 0;
 }
 
 constexpr const char* step_keyword = "CONTROL_TIMESTEP";

@@ -132,6 +132,10 @@ void write_summary(const std::filesystem::path& file, const Summary& s) {
   entry("version", std::string(COURANT_VERSION));
   entry("title", s.title);
   entry("deck", s.deck);
+  if (!s.mass.empty())
+    emit_map(
+        out, "units",
+        std::map<std::string, std::string>{{"mass", s.mass}, {"length", s.length}, {"time", s.time_unit}});
   entry("termination", s.termination);
   entry("reason", s.reason);
   if (!s.advice.empty()) entry("advice", s.advice);

@@ -28,12 +28,13 @@ struct Summary {
     double seconds = 0;  ///< wall time in this pass over the run
     std::int64_t calls = 0;
   };
-  std::string title;                         ///< of the deck
-  std::string deck;                          ///< path of the deck
-  std::string termination;                   ///< "normal", "error", "interrupted", ...
-  std::string reason;                        ///< in words
-  std::string advice;                        ///< what to change, where the run stopped in error; may be empty
-  std::string verdict;                       ///< "sound", "doubtful", "broken"; empty: nobody has judged yet
+  std::string title;                    ///< of the deck
+  std::string deck;                     ///< path of the deck
+  std::string mass, length, time_unit;  ///< units that the numbers of the deck look like; empty: no guess
+  std::string termination;              ///< "normal", "error", "interrupted", ...
+  std::string reason;                   ///< in words
+  std::string advice;                   ///< what to change, where the run stopped in error; may be empty
+  std::string verdict;                  ///< "sound", "doubtful", "broken"; empty: nobody has judged yet
   std::vector<std::string> verdict_reasons;  ///< what speaks against it
   VerdictLimits limits;
   Real time = 0;  ///< time reached [T]

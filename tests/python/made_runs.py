@@ -104,7 +104,7 @@ def write_shells(path: Path, x: np.ndarray, corners: Sequence[Sequence[int]]) ->
 
 
 def write_run(folder: Path, states: Sequence[ParticleFrame], title: str = "", shells: bool = False, packing: str = "zlib") -> None:
-    """fields.pvd with its files, and summary.yaml where there is a title."""
+    """fields.pvd with its files, and summary.yaml."""
     entries = ""
     for k, state in enumerate(states):
         name = f"fields/particles_{k:04d}.vtp"
@@ -117,8 +117,7 @@ def write_run(folder: Path, states: Sequence[ParticleFrame], title: str = "", sh
     (folder / "fields.pvd").write_text(
         f'<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1">\n<Collection>\n{entries}</Collection>\n</VTKFile>\n'
     )
-    if title:
-        (folder / "summary.yaml").write_text(f"title: {title}\n")
+    (folder / "summary.yaml").write_text(f"title: {title or chr(39) * 2}\nunits: {{mass: kg, length: m, time: s}}\n")
 
 
 def write_history(folder: Path, datasets: dict[str, tuple[np.ndarray, str]]) -> None:

@@ -147,8 +147,8 @@ def test_without_matplotlib_there_is_a_warning(tmp_path, monkeypatch):
 def test_a_recipe_of_histories_needs_no_states(tmp_path):
     write_history(tmp_path, {"global/time": (np.arange(4.0), "T"), "global/kinetic": (np.arange(4.0), "ML2/T2")})
     said, _ = post(tmp_path, "analyses: [{kind: history, name: h, of: [global/kinetic]}]\n")
-    assert said.startswith("h (history)\n  global/kinetic: mean 1.5 kg m2/s2, deviation 1.12, 0 to 3\n")
-    assert results(tmp_path)["analyses"]["h"]["global/kinetic_integral"] == {"value": 4.5, "unit": "kg m2/s2 s"}
+    assert said.startswith("h (history)\n  global/kinetic: mean 1.5 model units, deviation 1.12, 0 to 3\n")
+    assert results(tmp_path)["analyses"]["h"]["global/kinetic_integral"] == {"value": 4.5, "unit": "model units"}
 
 
 def test_numbers_that_are_none(tmp_path):

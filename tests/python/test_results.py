@@ -55,7 +55,7 @@ def test_other_units(run):
 
 
 def test_summary(run):
-    assert run.summary == {"title": "a title"}
+    assert run.summary["title"] == "a title"
     (run.folder / "summary.yaml").write_text("[1")
     with pytest.raises(courant.CourantError, match="summary.yaml: error: not valid YAML"):
         courant.open(run.folder).summary  # noqa: B018

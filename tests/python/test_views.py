@@ -48,7 +48,7 @@ def cubes(tmp_path):
     second = [1, 8, 9, 2, 5, 10, 11, 6]
     stress = np.array([[3, 0, 0, 0, 0, 0], [0, 0, 0, 0, 2, 0]], dtype="<f4")
     arrays = {"stress": stress, "plastic_strain": np.array([0.5, 0.0], "<f4"), "part": np.array([1, 1], "<i8")}
-    return courant.open(write_solids(tmp_path, x, [list(range(8)), second], arrays))
+    return courant.open(write_solids(tmp_path, x, [list(range(8)), second], arrays), courant.Units())
 
 
 @pytest.fixture

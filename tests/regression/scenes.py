@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Short scenes of water in a box: what their defaults give, against the weight of the water.
+"""Short scenes of water in a box with walls by contact: what their defaults give, against the weight of the water.
 
 usage: scenes.py COURANT SOURCE_DIR WORK_DIR
 """
@@ -56,21 +56,21 @@ check(end["particles"] == "400" and "Choices to look at" not in said, "400 parti
 
 # --- still water, open and closed, in 2D and 3D: it stays, and its weight is on the floor
 _, end = computed("still", "title: still water\nwater: {spacing: 0.025, blocks: [{low: [0, 0], high: [0.5, 0.5]}]}\n"
-                  "box: {low: [0, 0], high: [0.5, 0.7], open: [top]}\nend: 5\noutput: 0.1\n")
+                  "box: {low: [0, 0], high: [0.5, 0.7], open: [top]}\nwall_method: contact\nend: 5\noutput: 0.1\n")
 weight = RHO * G * 0.5 * 0.5
 down, aside = force("still", 1, 3), force("still", 0, 3)
 # of the walls' force a mean over two seconds: some periods of the sloshing that is left
 check(abs(down / -weight - 1) < 0.01 and abs(aside) < 0.01 * weight, f"weight on the floor {-down:.1f} of {weight:.1f} N/m, aside {aside:.1f}")
 check(float(end["kinetic"]) < 1e-3 * weight * 0.25, f"kinetic energy {end['kinetic']} of the {weight * 0.25:.0f} J/m that the water has above the floor")
 _, end = computed("still_3d", "title: still water\nwater: {spacing: 0.05, blocks: [{low: [0, 0, 0], high: [0.5, 0.3, 0.4]}]}\n"
-                  "box: {low: [0, 0, 0], high: [0.5, 0.3, 0.6]}\nend: 2\noutput: 0.1\n")
+                  "box: {low: [0, 0, 0], high: [0.5, 0.3, 0.6]}\nwall_method: contact\nend: 2\noutput: 0.1\n")
 weight = RHO * G * 0.5 * 0.3 * 0.4
 down = force("still_3d", 2, 1)
 check(abs(down / -weight - 1) < 0.01, f"weight on the floor {-down:.1f} of {weight:.1f} N")
 
 # --- other units: the same water in tonnes and mm
 said, end = computed("still_mm", "title: still water\nwater: {spacing: 25, density: 1.0e-9, blocks: [{low: [0, 0], high: [500, 500]}]}\n"
-                     "box: {low: [0, 0], high: [500, 700], open: [top]}\ngravity: 9810\nend: 2\noutput: 0.1\n")
+                     "box: {low: [0, 0], high: [500, 700], open: [top]}\nwall_method: contact\ngravity: 9810\nend: 2\noutput: 0.1\n")
 check("Units: tonne-mm-s" in said, "the units are seen")
 
 # --- LS-DYNA's defaults are told of, and what to type

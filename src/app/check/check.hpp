@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/check/deck_facts.hpp"
+#include "app/check/units.hpp"
 #include "app/run/simulation.hpp"
 #include "model/sets/unused_ids.hpp"
 
@@ -82,9 +83,5 @@ struct DeckHead {
 /// `model`: null where the deck cannot be run.
 std::string check_json(const DeckHead& deck, const DeckFacts& facts, const UnusedIds& unused,
                        const ModelFacts* model, const Diagnostics& diagnostics, bool sound);
-
-// check_units.cpp
-/// Numbers of the deck in common systems of units, and which system they look like.
-std::string units_text(const DeckFacts& facts, const std::vector<Real>& sound_speeds);
 
 }  // namespace courant

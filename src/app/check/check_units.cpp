@@ -1,10 +1,8 @@
-// `courant check`: which units does the deck use? LS-DYNA's are whatever the numbers agree on, so the numbers
-// are looked at in each common system.
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
-#include "app/check/check.hpp"
+#include "app/check/units.hpp"
 
 namespace courant {
 
@@ -12,21 +10,22 @@ namespace {
 
 struct System {
   const char* name;
-  const char* derived;        ///< units of force and pressure
+  const char* derived;  ///< units of force and pressure
+  const char *mass, *length, *time;
   Real kg = 1, m = 1, s = 1;  ///< of one unit of mass, length, time
 };
 
 constexpr System systems[] = {
-    {"kg-m-s", "N, Pa", 1, 1, 1},
-    {"tonne-mm-s", "N, MPa", 1e3, 1e-3, 1},
-    {"kg-mm-ms", "kN, GPa", 1, 1e-3, 1e-3},
-    {"g-mm-ms", "N, MPa", 1e-3, 1e-3, 1e-3},
-    {"g-cm-us", "1e7 N, Mbar", 1e-3, 1e-2, 1e-6},
-    {"g-cm-s", "dyn, dyn/cm2", 1e-3, 1e-2, 1},
-    {"kg-mm-s", "mN, kPa", 1, 1e-3, 1},
-    {"g-mm-s", "uN, Pa", 1e-3, 1e-3, 1},
-    {"slug-ft-s", "lbf, lbf/ft2", 14.5939, 0.3048, 1},
-    {"lbf s2/in-in-s", "lbf, psi", 175.127, 0.0254, 1},
+    {"kg-m-s", "N, Pa", "kg", "m", "s", 1, 1, 1},
+    {"tonne-mm-s", "N, MPa", "t", "mm", "s", 1e3, 1e-3, 1},
+    {"kg-mm-ms", "kN, GPa", "kg", "mm", "ms", 1, 1e-3, 1e-3},
+    {"g-mm-ms", "N, MPa", "g", "mm", "ms", 1e-3, 1e-3, 1e-3},
+    {"g-cm-us", "1e7 N, Mbar", "g", "cm", "us", 1e-3, 1e-2, 1e-6},
+    {"g-cm-s", "dyn, dyn/cm2", "g", "cm", "s", 1e-3, 1e-2, 1},
+    {"kg-mm-s", "mN, kPa", "kg", "mm", "s", 1, 1e-3, 1},
+    {"g-mm-s", "uN, Pa", "g", "mm", "s", 1e-3, 1e-3, 1},
+    {"slug-ft-s", "lbf, lbf/ft2", "slug", "ft", "s", 14.5939, 0.3048, 1},
+    {"lbf s2/in-in-s", "lbf, psi", "lbf s2/in", "in", "s", 175.127, 0.0254, 1},
 };
 
 struct Substance {
@@ -152,22 +151,45 @@ std::string table(const std::vector<Fit>& fits) {
   return out;
 }
 
-}  // namespace
+constexpr Real least_score = 1.5;
 
-std::string units_text(const DeckFacts& facts, const std::vector<Real>& sound_speeds) {
+bool fits_well(const Fit& fit) {
+  return fit.score >= least_score && !fit.reasons.empty();
+}
+
+Evidence evidence_of(const DeckFacts& facts, const std::vector<Real>& sound_speeds) {
   Evidence e;
   for (const MaterialFacts& m : facts.materials) e.ro.push_back(m.ro), e.E.push_back(m.E);
   e.ro = distinct(e.ro), e.E = distinct(e.E), e.c = distinct(sound_speeds);
   e.gravity = facts.gravity;
   e.size = facts.nodes > 0 ? (facts.high - facts.low).maxCoeff() : 0;
   e.end = facts.endtim;
-  if (e.ro.empty() && e.E.empty() && !(e.gravity > 0))
-    return "Units: the deck has neither densities nor gravity to tell them from\n";
+  return e;
+}
+
+/// Of all systems, the best first; none where nothing tells.
+std::vector<Fit> fits_of(const Evidence& e) {
   std::vector<Fit> fits;
+  if (e.ro.empty() && e.E.empty() && !(e.gravity > 0)) return fits;
   for (const System& u : systems) fits.push_back(fit_of(u, e));
   std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.score > b.score; });
-  constexpr Real least = 1.5;
-  if (fits[0].score < least || fits[0].reasons.empty()) {
+  return fits;
+}
+
+}  // namespace
+
+std::optional<UnitNames> guess_units(const DeckFacts& facts, const std::vector<Real>& sound_speeds) {
+  const std::vector<Fit> fits = fits_of(evidence_of(facts, sound_speeds));
+  if (fits.empty() || !fits_well(fits[0]) || fits[1].score == fits[0].score) return std::nullopt;
+  const System& u = *fits[0].system;
+  return UnitNames{u.mass, u.length, u.time};
+}
+
+std::string units_text(const DeckFacts& facts, const std::vector<Real>& sound_speeds) {
+  const Evidence e = evidence_of(facts, sound_speeds);
+  std::vector<Fit> fits = fits_of(e);
+  if (fits.empty()) return "Units: the deck has neither densities nor gravity to tell them from\n";
+  if (!fits_well(fits[0])) {
     fits.resize(3);
     return "Units: no common system fits; are they consistent?\n" + table(fits);
   }
@@ -179,8 +201,8 @@ std::string units_text(const DeckFacts& facts, const std::vector<Real>& sound_sp
     out += (k > 0 ? ", " : "") + fits[0].reasons[k];
   if (e.gravity > 0 && std::abs(fits[0].gravity / 9.81 - 1) >= 0.02)
     out += fmt::format("; but the acceleration {:g} is not the earth's", e.gravity);
-  const auto doubtful = std::find_if(fits.begin() + 1, fits.end(),
-                                     [&](const Fit& f) { return f.score < least || f.reasons.empty(); });
+  const auto doubtful =
+      std::find_if(fits.begin() + 1, fits.end(), [](const Fit& f) { return !fits_well(f); });
   fits.erase(std::min(doubtful, fits.begin() + 3), fits.end());
   return out + "\n" + table(fits);
 }

@@ -79,6 +79,16 @@ class FactGatherer {
     return std::move(facts_);
   }
 
+  DeckFacts gather_for_units() {
+    gather_nodes();
+    const auto& registry = keyword_registry();
+    for (std::size_t k = 0; k < registry.size(); ++k)
+      if (registry[k]->names[0].rfind("MAT_", 0) == 0)
+        gather_materials(*registry[k], static_cast<std::int32_t>(k));
+    gather_loads();
+    return std::move(facts_);
+  }
+
  private:
   void gather_nodes() {
     const auto& nodes = deck_.all<NodeCard>();
@@ -174,6 +184,10 @@ class FactGatherer {
 
 DeckFacts gather_facts(const Deck& deck) {
   return FactGatherer(deck).gather();
+}
+
+DeckFacts gather_unit_facts(const Deck& deck) {
+  return FactGatherer(deck).gather_for_units();
 }
 
 }  // namespace courant

@@ -42,5 +42,7 @@ struct DeckFacts {
 
 /// Call before the cards of the mesh are released.
 DeckFacts gather_facts(const Deck& deck);
+/// Nodes, materials, gravity and end alone, from which units are guessed.
+DeckFacts gather_unit_facts(const Deck& deck);
 
 }  // namespace courant

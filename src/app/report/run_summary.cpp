@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/run/resources.hpp"
+#include "elements/element_laws.hpp"
 
 namespace courant {
 
@@ -34,6 +35,14 @@ std::vector<std::string> idle_contacts(Simulation& s) {
 
 }  // namespace
 
+std::optional<UnitNames> units_of(const Simulation& s) {
+  std::vector<Real> speeds;
+  for (const PartRange& part : s.guard().ranges()) speeds.push_back(part.c0);
+  for (const auto& group : s.world().groups)
+    if (group->pushes) speeds.push_back(s.get<ElementLaws>().speed(group->part));
+  return guess_units(s.unit_facts(), speeds);
+}
+
 void note_end(Summary& y, Simulation& s) {
   const World& world = s.world();
   y.ranges = s.guard().ranges();
@@ -48,6 +57,8 @@ void note_end(Summary& y, Simulation& s) {
   if (!std::isfinite(y.dt_min)) y.dt_min = 0;
   y.notes = idle_contacts(s);
   if (s.has_particles()) y.counters["neighbour_rebuilds"] = s.neighbours().rebuilds();
+  if (const auto units = units_of(s))
+    y.mass = units->mass, y.length = units->length, y.time_unit = units->time;
 }
 
 void note_times(Summary& summary, const PassTimer& timer) {

@@ -221,7 +221,7 @@ class Run {
         "\n     {} has the state at time {:.6g}, cycle {}, which the guard had found sane; to go on from it "
         "with "
         "a smaller TSSFAC in the deck: {}",
-        file, copy->t, copy->cycle, restart_call(file));
+        file, copy->t, copy->cycle, call_to_go_on(summary_.deck, options_, file));
     if (newest_restart_.empty() || copy->cycle > kept_cycle_) newest_restart_ = file;
   }
 
@@ -264,14 +264,14 @@ class Run {
 
   /// Stopped there, a run has no restart file, from which it would go on without the rest.
   void relax_first() {
-    const RunEnds ends(s_, options_.stop);
+    const RunEnds ends(s_, options_.stop, &program_);
     const auto stop = [&] { return ends.called_off(cpu_seconds() - cpu_start_); };
     if (const auto end = relax_before(s_, options_, stop, [&](const auto& line) { messag_.line(line); }))
       stop_at(*end);
   }
 
   void loop() {
-    const RunEnds ends(s_, options_.stop);
+    const RunEnds ends(s_, options_.stop, &program_);
     while (s_.clock().t < end_) {
       if (const auto end = ends.reached(cpu_seconds() - cpu_start_)) return stop_at(*end);
       s_.step([this](World& world, const Clock& clock, const std::string& who) {
@@ -302,6 +302,7 @@ class Run {
     if (field_schedule_.take(clock.t, clock.dt) || plot_wanted_) write_fields(world, clock);
     plot_wanted_ = false;
     if (histories_.is_due(clock.t, clock.dt)) write_histories(false);
+    program_.at(s_, clock.t, clock.dt);
     if (clock.cycle % 5000 == 0 && clock.cycle > 0) {
       messag_.status(clock.cycle, clock.t, clock.dt, "flush i/o buffers");
       messag_.line(
@@ -333,6 +334,7 @@ class Run {
     s_.evaluate(who_);  // pressures and forces at the end time
     s_.timer().measure("guard", [&] { s_.guard().look(s_.world(), s_.clock()); });
     s_.timer().measure("output", [&] { write_last(); });
+    program_.at_end(s_);
     if (summary_.termination.empty()) {
       summary_.termination = "normal";
       messag_.line(fmt::format(" *** {} ***", summary_.reason));
@@ -386,19 +388,16 @@ class Run {
     attempt([&] { write_summary(result_path(options_.dir, result_names::summary), y); });
   }
 
-  std::string restart_call(const std::string& file) const {
-    return call_to_go_on(summary_.deck, options_, file);
-  }
-
   /// What can go on from where, for a run that did not reach its end.
   void tell_restart_file() {
     const bool is_told = failure_.find(newest_restart_) != std::string::npos && !newest_restart_.empty();
     if (summary_.termination == "error" && !is_told)
       failure_ += newest_restart_.empty()
                       ? "\n     no restart file was written; *DATABASE_BINARY_RUNRSF asks for some"
-                      : "\n     to go on from the latest whole state: " + restart_call(newest_restart_);
+                      : "\n     to go on from the latest whole state: " +
+                            call_to_go_on(summary_.deck, options_, newest_restart_);
     else if (summary_.termination == "interrupted" && !newest_restart_.empty())
-      summary_.reason += "; to go on: " + restart_call(newest_restart_);
+      summary_.reason += "; to go on: " + call_to_go_on(summary_.deck, options_, newest_restart_);
   }
 
   double wall_seconds() const { return wall_before_ + PassTimer::now() - start_; }
@@ -463,6 +462,7 @@ class Run {
   RestartSchedule restart_schedule_;
   SenseSwitches switches_;
   StateCopies copies_;
+  Program program_{options_.hook};  ///< that follows the run
   Summary summary_;
   ThreadChoice choice_;
   std::string who_, failure_;

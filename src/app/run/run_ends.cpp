@@ -14,8 +14,11 @@ const RegisterKeyword<ControlCpu> control_cpu{control_cpu_table()};
 
 }  // namespace
 
-RunEnds::RunEnds(Simulation& simulation, const std::atomic<bool>* stop)
-    : s_(simulation), stop_(stop), endings_(simulation.world().passes.all<const Ending>()) {
+RunEnds::RunEnds(Simulation& simulation, const std::atomic<bool>* stop, const Program* program)
+    : s_(simulation),
+      stop_(stop),
+      program_(program),
+      endings_(simulation.world().passes.all<const Ending>()) {
   for (const ControlCpu& card : simulation.deck().all<ControlCpu>()) most_cpu_ = card.cputim;
 }
 
@@ -34,6 +37,8 @@ std::optional<RunEnd> RunEnds::called_off(double cpu) const {
   const Real t = s_.clock().t;
   if (stop_ && stop_->load())
     return RunEnd{.reason = fmt::format("stopped by a signal at time {:.6g}", t), .interrupted = true};
+  if (program_ && program_->called_off())
+    return RunEnd{.reason = fmt::format("stopped by the program at time {:.6g}", t), .interrupted = true};
   if (most_cpu_ > 0 && cpu >= most_cpu_)
     return RunEnd{
         .reason = fmt::format("CPUTIM = {:g} s of *CONTROL_CPU are spent at time {:.6g}", most_cpu_, t),

@@ -18,8 +18,8 @@ struct RunEnd {
 /// A signal, ENDCYC, CPUTIM of *CONTROL_CPU, *TERMINATION_...
 class RunEnds {
  public:
-  /// `stop`: set by a signal; may be null.
-  RunEnds(Simulation& simulation, const std::atomic<bool>* stop);
+  /// `stop`: set by a signal; `program`: that may call the run off. Both may be null.
+  RunEnds(Simulation& simulation, const std::atomic<bool>* stop, const Program* program);
   /// Between two steps. `cpu`: time of all threads since this call of the program began [s]
   /// Throws RunError where the steps have become so short that the end cannot be reached.
   std::optional<RunEnd> reached(double cpu) const;
@@ -31,6 +31,7 @@ class RunEnds {
 
   Simulation& s_;
   const std::atomic<bool>* stop_;
+  const Program* program_;
   double most_cpu_ = 0;  ///< 0: no limit [s]
   std::vector<const Ending*> endings_;
 };

@@ -78,6 +78,7 @@ std::unique_ptr<Simulation> Simulation::from_read_deck(const std::string& deck_p
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
   s->model_ = build_model(s->deck_, diagnostics, phase);
   if (!holds_places(deck_path, s->model_, diagnostics)) return nullptr;
+  s->unit_facts_ = gather_unit_facts(s->deck_);
   release_mesh_cards(s->deck_);
   s->build_world(deck_path, diagnostics);
   if (!diagnostics.ok()) return nullptr;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/check/deck_facts.hpp"
+#include "app/run/program_hook.hpp"
 #include "contact/contact.hpp"
 #include "extension/builders.hpp"
 #include "keyword/deck.hpp"
@@ -49,7 +51,8 @@ class Simulation {
   /// How the deck, and once its state is loaded what was made of it, differs from that of the run before, a
   /// line for each difference.
   const std::vector<std::string>& changes() const { return changes_; }
-  const Deck& deck() const { return deck_; }     ///< without nodes, elements and text
+  const DeckFacts& unit_facts() const { return unit_facts_; }  ///< from which units are guessed
+  const Deck& deck() const { return deck_; }                   ///< without nodes, elements and text
   const Model& model() const { return model_; }  ///< without nodes and particles: the world holds them
   World& world() { return world_; }
   const World& world() const { return world_; }
@@ -101,6 +104,7 @@ class Simulation {
 
   Deck deck_;
   DeckRecord record_;
+  DeckFacts unit_facts_;
   std::vector<std::string> changes_;
   Model model_;
   World world_;
@@ -129,6 +133,7 @@ struct RunOptions {
   bool keyboard = false;                             ///< sense switches may be typed
   Simulation* relaxing = nullptr;                    ///< in front of the run, where the deck asks for that
   Restart* restart = nullptr;                        ///< what the run goes on from; emptied on the way
+  ProgramHook hook{};                                ///< a program that follows the run
 };
 
 /// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the

@@ -14,11 +14,15 @@ if TYPE_CHECKING:
     from .diagnostics import CourantError
     from .results import Results, open
     from .running import Run, RunFailed, check, run
+    from .live import LiveState
     from .scene.scene import Scene
+    from .stepping import Steps, steps
+    from .sweeping import sweep
     from .tables import Table
     from .units import Units
 
-__all__ = ["CourantError", "Results", "Run", "RunFailed", "Scene", "Table", "Units", "check", "open", "run"]
+__all__ = ["CourantError", "LiveState", "Results", "Run", "RunFailed", "Scene", "Steps", "Table", "Units", "check", "open", "run", "steps", "sweep"]
 # so that the calls start before numpy is there, and can tell where it is missing
 __getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".results": ["Results", "open"],
-                                ".running": ["Run", "RunFailed", "check", "run"], ".scene.scene": ["Scene"], ".tables": ["Table"], ".units": ["Units"]})
+                                ".running": ["Run", "RunFailed", "check", "run"], ".live": ["LiveState"], ".scene.scene": ["Scene"], ".stepping": ["Steps", "steps"],
+                                ".sweeping": ["sweep"], ".tables": ["Table"], ".units": ["Units"]})

@@ -8,6 +8,7 @@ from os import PathLike
 
 MAX_WARNINGS = 100  # more than these are counted, but not kept
 LONGEST_TEXT = 500  # of a message or a hint [bytes]
+_MESSAGE = re.compile(r"(?:(?P<file>[^\n]*?)(?::(?P<line>\d+))?(?::(?P<column>\d+))?: )?(?P<severity>error|warning|note): (?P<text>.*)")
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,21 @@ class Diagnostics:
 
 def as_location(where: Location | str | PathLike[str]) -> Location:
     return where if isinstance(where, Location) else Location(str(where))
+
+
+def parse_messages(text: str) -> Diagnostics:
+    """Messages as the program prints them, with those lines that belong to the one above."""
+    out = Diagnostics()
+    for line in text.splitlines():
+        found = _MESSAGE.fullmatch(line)
+        if found:
+            where = Location(found["file"] or "", int(found["line"] or 0), int(found["column"] or 0))
+            out.add(Diagnostic(found["severity"], where, found["text"]))
+        elif out.all and line.startswith("  hint: "):
+            out.all[-1].hint = line[8:]
+        elif out.all and line.startswith("  "):
+            out.all[-1].message += "\n" + line
+    return out
 
 
 class CourantError(Exception):

@@ -34,13 +34,14 @@ from .files import write_figure
 from .histories import HistoryFile
 from .optional import module
 from .tables import Table, table_of
-from .units import Dimension, Units
+from .units import MODEL_UNITS, Dimension, Units, units_of_summary
 
 
-def open(folder: str | PathLike[str], units: Units = Units()) -> Results:  # noqa: A001, B008  as gzip.open; frozen
+def open(folder: str | PathLike[str], units: Units | None = None) -> Results:  # noqa: A001  as gzip.open
     """The results that `courant run -o DIR` wrote, or a folder of LS-DYNA's ASCII histories.
 
-    Files are read when they are asked for. `units`: what the deck's units are called. Raises CourantError where the folder is missing.
+    Files are read when they are asked for. `units`: what the deck's units are called; if not given, those that its numbers look like as the run found,
+    or "model units". Raises CourantError where the folder is missing.
     """
     return Results(folder, units)
 
@@ -53,8 +54,9 @@ def _raised(diagnostics: Diagnostics) -> None:
 class Mesh:
     """Particles or shells of one state, from a .vtp or .vtu file. Raises CourantError where it is damaged."""
 
-    def __init__(self, path: Path, units: Units, missing: Mapping[str, float] | None = None) -> None:
-        self.path, self._units, self._missing = path, units, missing or {}
+    def __init__(self, path: Path, units: Units, missing: Mapping[str, float] | None = None, start: Path | None = None) -> None:
+        """`start`: the file of the first state, from which displacements count."""
+        self.path, self._units, self._missing, self._start = path, units, missing or {}, start
         try:
             self._file = FieldFile(path)
         except FieldFault as fault:
@@ -77,11 +79,32 @@ class Mesh:
         return [*self._file.names("PointData"), *self._file.names("CellData")]
 
     def __contains__(self, name: object) -> bool:
-        return name in self.names or name in self._missing
+        return name in self.names or name in self._missing or (name == "displacement" and self.has_displacement)
+
+    @property
+    def has_displacement(self) -> bool:
+        """Whether displacements can be made: points have numbers, and the first state is there."""
+        return self._start is not None and self._file.has("PointData", "id") and "displacement" not in self.names
+
+    @cached_property
+    def _displacement(self) -> np.ndarray:
+        """Since the first state, (points, 3) [L]; NaN of points that it has not."""
+        assert self._start is not None
+        first = self if self._start == self.path else Mesh(self._start, self._units)
+        known = np.asarray(first["id"])
+        order = np.argsort(known, kind="stable")
+        ids = np.asarray(self["id"])
+        at = order[np.minimum(np.searchsorted(known, ids, sorter=order), len(known) - 1)] if len(known) else np.zeros(len(ids), int)
+        out = np.full((len(ids), 3), np.nan)
+        same = known[at] == ids if len(known) else np.zeros(len(ids), bool)
+        out[same] = self.points[same] - first.points[at[same]]
+        return out
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """An array, (points or cells,) or (points or cells, components); "speed" is the length of "velocity". Raises KeyError with the
-        names that there are."""
+        """An array, (points or cells,) or (points or cells, components); "speed" is the length of "velocity", "displacement" counts from the first
+        state. Raises KeyError with the names that there are."""
+        if name == "displacement" and self.has_displacement:
+            return self._displacement
         if name == "speed" and name not in self.names:
             return np.sqrt((self["velocity"].astype(float) ** 2).sum(axis=1))
         for section in ("PointData", "CellData"):
@@ -98,6 +121,8 @@ class Mesh:
     def unit(self, name: str) -> str:
         """ "m/s"; "?" where the file does not tell."""
         name = "velocity" if name == "speed" and name not in self.names else name
+        if name == "displacement" and self.has_displacement:
+            return self._units.of(Dimension(L=1))
         array = self._file.arrays.get(("PointData", name)) or self._file.arrays.get(("CellData", name))
         return "?" if array is None else self._units.of_text(array.dimension)
 
@@ -155,21 +180,21 @@ class Mesh:
 class RunState(Mesh):
     """One state at a time t [T]: its particles or, where it has none, its shells, which are `shells` in any case."""
 
-    def __init__(self, files: StateFiles, run: Results) -> None:
+    def __init__(self, files: StateFiles, run: Results, first: StateFiles | None = None) -> None:
         path = files.particles or files.shells
         assert path is not None  # fields.pvd names one of them
-        super().__init__(path, run.units, run.missing if files.particles else None)
-        self.t, self._files, self._run = files.t, files, run
+        self.t, self._files, self._run, self._first = files.t, files, run, first or files
+        super().__init__(path, run.units, run.missing if files.particles else None, self._first.particles if files.particles else self._first.shells)
 
     @cached_property
     def shells(self) -> Mesh | None:
         """Shells, solids and other cells."""
-        return Mesh(self._files.shells, self._units) if self._files.shells else None
+        return Mesh(self._files.shells, self._units, start=self._first.shells) if self._files.shells else None
 
     @cached_property
     def solids(self) -> Mesh | None:
         """Solids, which are `shells`, too, where a run has no shells."""
-        return Mesh(self._files.solids, self._units) if self._files.solids else None
+        return Mesh(self._files.solids, self._units, start=self._first.solids) if self._files.solids else None
 
     @property
     def particles(self) -> Mesh | None:
@@ -191,8 +216,8 @@ class RunState(Mesh):
 class States(Sequence[RunState]):
     """The states of a run in order of time; each is read when it is asked for."""
 
-    def __init__(self, files: list[StateFiles], run: Results) -> None:
-        self._files, self._run = files, run
+    def __init__(self, files: list[StateFiles], run: Results, first: StateFiles | None = None) -> None:
+        self._files, self._run, self._first = files, run, first or (files[0] if files else None)
         self.times = np.array([one.t for one in files])
 
     def __len__(self) -> int:
@@ -204,8 +229,8 @@ class States(Sequence[RunState]):
     def __getitem__(self, index: slice) -> States: ...
     def __getitem__(self, index: int | slice) -> RunState | States:
         if isinstance(index, slice):
-            return States(self._files[index], self._run)
-        return RunState(self._files[index], self._run)
+            return States(self._files[index], self._run, self._first)
+        return RunState(self._files[index], self._run, self._first)
 
     def at(self, t: float) -> RunState:
         """The state nearest to a time [T]."""
@@ -288,14 +313,24 @@ class AsciiTables(Mapping[str, Table]):
 class Results:
     """The results in a folder. What a run did not write raises CourantError when it is asked for."""
 
-    def __init__(self, folder: str | PathLike[str], units: Units = Units(), missing: Mapping[str, float] | None = None) -> None:  # noqa: B008  frozen
+    def __init__(self, folder: str | PathLike[str], units: Units | None = None, missing: Mapping[str, float] | None = None) -> None:
         """`missing`: numbers for arrays of particles that the field files may lack, {"density": 1000}."""
-        self.folder, self.units, self.missing = Path(folder), units, missing or {}
+        self.folder, self.missing = Path(folder), missing or {}
         if not self.folder.is_dir():
             diagnostics = Diagnostics()
             diagnostics.error(self.folder, "no such folder", "DIR must be the folder that `courant run -o DIR` wrote")
             raise CourantError(diagnostics)
-        self.ascii = AsciiTables(self.folder, units)
+        self.units = units or self._found_units()
+        self.ascii = AsciiTables(self.folder, self.units)
+
+    def _found_units(self) -> Units:
+        try:
+            units = units_of_summary(self.summary)
+        except CourantError:  # reported where the summary is asked for
+            return MODEL_UNITS
+        if not self.summary:
+            del self.summary  # the run goes on
+        return units
 
     def __repr__(self) -> str:
         return f"<courant.Results {self.folder}>"
@@ -355,15 +390,28 @@ class Results:
     @property
     def energies(self) -> Table:
         """The energy ledger over time: what has the unit of the total energy."""
-        table = self.histories.table("global")
-        unit = table.units.get("total", "?")
-        return Table("energies", [one for one in table.columns if one.name == "t" or one.unit == unit])
+        table, file = self.histories.table("global"), self.histories._file
+        of_energy = [column for column in table.columns if column.name == "t" or file.dimension(f"/global/{column.name}") == file.dimension("/global/total")]
+        return Table("energies", of_energy)
 
     @cached_property
     def contacts(self) -> dict[int, Table]:
         """Force on the particles or nodes, and energies, of each contact over time, by its id."""
         groups = [group for group in self.histories.groups if re.fullmatch(r"contacts/\d+", group)]
         return {int(group.partition("/")[2]): self.histories.table(group) for group in sorted(groups, key=lambda g: int(g[9:]))}
+
+    def wall_force(self, *ids: int) -> Table:
+        """Total force that contacts exert on their walls over time: of those with these ids (0 are the mirrors), or of all. In a scene with bodies, whose
+        contact with walls is 2, `wall_force(0, 1)` is the force of the water on walls and bodies. Raises KeyError with the ids there are."""
+        chosen = ids or tuple(self.contacts)
+        for one in chosen:
+            if one not in self.contacts and one != 0:
+                raise KeyError(f"the run has no contact {one}; it has {', '.join(map(str, self.contacts))}")
+        some = [self.contacts[one] for one in chosen if one in self.contacts]
+        if not some:
+            raise KeyError("the run has no contacts")
+        columns = [(name, some[0].units[name], -sum(one[name] for one in some)) for name in ("force.x", "force.y", "force.z")]
+        return table_of("wall force", [("t", some[0].units["t"], some[0]["t"]), *columns])
 
     def table(self, name: str) -> Table:
         """ "energies", a group of history.h5 ("contacts/1") or an ASCII history ("glstat")."""

@@ -1,43 +1,26 @@
 """Runs of decks from Python, by the program beside this package."""
 from __future__ import annotations
 
-import re
 import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from os import PathLike, fspath
 from pathlib import Path
 from typing import IO, Any
 
-from .diagnostics import CourantError, Diagnostic, Diagnostics, Location
+from .diagnostics import CourantError, Diagnostics, parse_messages
+from .live import LiveState
+from .native import native
 from .program import executable
 from .results import Results
 from .units import Units
 
-_MESSAGE = re.compile(r"(?:(?P<file>[^\n]*?)(?::(?P<line>\d+))?(?::(?P<column>\d+))?: )?(?P<severity>error|warning|note): (?P<text>.*)")
-
-
-def parse_messages(text: str) -> Diagnostics:
-    """Messages as the program prints them, with those lines that belong to the one above."""
-    out = Diagnostics()
-    for line in text.splitlines():
-        found = _MESSAGE.fullmatch(line)
-        if found:
-            where = Location(found["file"] or "", int(found["line"] or 0), int(found["column"] or 0))
-            out.add(Diagnostic(found["severity"], where, found["text"]))
-        elif out.all and line.startswith("  hint: "):
-            out.all[-1].hint = line[8:]
-        elif out.all and line.startswith("  "):
-            out.all[-1].message += "\n" + line
-    return out
-
-
 class Run(Results):
     """The results of a run that `courant.run` made, with its verdict. `diagnostics`: messages about the deck; `exit_code` of the program."""
 
-    def __init__(self, folder: str | PathLike[str], diagnostics: Diagnostics, exit_code: int, units: Units = Units()) -> None:  # noqa: B008  frozen
+    def __init__(self, folder: str | PathLike[str], diagnostics: Diagnostics, exit_code: int, units: Units | None = None) -> None:
         super().__init__(folder, units)
         self.diagnostics, self.exit_code = diagnostics, exit_code
 
@@ -73,21 +56,37 @@ def _program() -> str:
     raise CourantError(diagnostics)
 
 
+Callback = Callable[[LiveState], object]
+
+
 def run(deck: str | PathLike[str], folder: str | PathLike[str] = "results", *, until: float | None = None, threads: int = 0,
-        parameters: Mapping[str, Any] | None = None, restart: str | PathLike[str] | None = None, quiet: bool = False, check: bool = True) -> Run:
+        parameters: Mapping[str, Any] | None = None, restart: str | PathLike[str] | None = None, quiet: bool = False, check: bool = True,
+        progress: Callable[[str], object] | None = None, callback: Callback | None = None, every_steps: int = 0, every: float = 0.0,
+        in_process: bool | None = None, stop: Any = None) -> Run:
     """Runs a deck, or a scene in YAML, with results in `folder`, and waits for its end.
 
     `until`: end time instead of ENDTIM [T]; `threads`: 0 takes as many as are quickest; `parameters`: values of *PARAMETER or of the scene;
-    `restart`: goes on from this file or folder. Ctrl-C ends the run as it ends one on the terminal: with all results so far.
+    `restart`: goes on from this file or folder. `progress` gets the status lines instead of the terminal. `callback` gets the state (courant.live) once
+    in `every_steps` steps, each `every` time units and at the end, or in each step if neither is given; an exception in it ends the run cleanly, with all
+    results so far, and is raised here. Ctrl-C ends the run as it ends one on the terminal.
+    `stop`: an object of the extension module, whose `ask()` ends the run from another thread.
+    `in_process`: None takes this process where the extension module is there, False a process of its own; the bits are the same.
     Raises CourantError with the messages where the deck is wrong (each has `where.file`, `where.line`, `field`, `message`, `hint`), and with `check`
     RunFailed where the run ended in error or its verdict is "broken".
     """
-    words = [_program(), "run", fspath(deck), "-o", fspath(folder), "--threads", str(int(threads))]
-    words += ["--until", repr(float(until))] if until is not None else []
-    words += [word for name, value in (parameters or {}).items() for word in ("--param", f"{name}={value}")]
-    words += ["--restart", fspath(restart)] if restart is not None else []
-    code, said = _wait(words + (["--quiet"] if quiet else []), quiet)
-    diagnostics = parse_messages(said)
+    options = dict(until=until, threads=threads, parameters=parameters, restart=restart, quiet=quiet, progress=progress)
+    inside = _may_run_inside(deck, callback is not None, in_process)
+    if fspath(deck).endswith((".yaml", ".yml")) and inside:
+        from .scene.scene import Scene
+
+        scene = Scene.from_yaml(deck, **{name: str(value) for name, value in (parameters or {}).items()})
+        return scene.run(folder, **options | {"parameters": None}, check=check, callback=callback, every_steps=every_steps, every=every, in_process=True, stop=stop)
+    if inside:
+        from .inside import run_inside
+
+        code, said, diagnostics = run_inside(deck, folder, **options, callback=callback, every_steps=every_steps, every=every, stop=stop)
+    else:
+        code, said, diagnostics = _run_outside(deck, folder, **options)
     if code == 1 or (code not in (0, 2) and not Path(folder, "summary.yaml").exists()):
         if diagnostics.ok:
             diagnostics.error(fspath(deck), said.strip() or f"the program ended with {code}")
@@ -96,6 +95,33 @@ def run(deck: str | PathLike[str], folder: str | PathLike[str] = "results", *, u
     if code and check:
         raise RunFailed(diagnostics, results)
     return results
+
+
+def _may_run_inside(deck: str | PathLike[str], must: bool, asked: bool | None) -> bool:
+    """Whether a run goes on in this process. Raises CourantError where it must and cannot."""
+    module = native() if asked is not False else None
+    cases = module is not None and module.has_cases(fspath(deck))  # each is a run of its own
+    if module is not None and not cases:
+        return True
+    if must or asked:
+        diagnostics = Diagnostics()
+        if cases:
+            diagnostics.error(fspath(deck), "a deck with *CASE is several runs, which do not go on in this process", "give the case a deck of its own")
+        else:
+            diagnostics.error(fspath(deck), "the extension module, which runs in this process and callbacks need, is not there",
+                              "leave out in_process=False" if asked is False else "apt-get install pybind11-dev, and build Courant again")
+        raise CourantError(diagnostics)
+    return False
+
+
+def _run_outside(deck: str | PathLike[str], folder: str | PathLike[str], *, until: float | None, threads: int, parameters: Mapping[str, Any] | None,
+                 restart: str | PathLike[str] | None, quiet: bool, progress: Callable[[str], object] | None) -> tuple[int, str, Diagnostics]:
+    words = [_program(), "run", fspath(deck), "-o", fspath(folder), "--threads", str(int(threads))]
+    words += ["--until", repr(float(until))] if until is not None else []
+    words += [word for name, value in (parameters or {}).items() for word in ("--param", f"{name}={value}")]
+    words += ["--restart", fspath(restart)] if restart is not None else []
+    code, said = _wait(words + (["--quiet"] if quiet else []), quiet, progress)
+    return code, said, parse_messages(said)
 
 
 def check(deck: str | PathLike[str], *, parameters: Mapping[str, Any] | None = None) -> Diagnostics:
@@ -110,14 +136,14 @@ def check(deck: str | PathLike[str], *, parameters: Mapping[str, Any] | None = N
     return diagnostics
 
 
-def _wait(words: list[str], quiet: bool) -> tuple[int, str]:
+def _wait(words: list[str], quiet: bool, progress: Callable[[str], object] | None = None) -> tuple[int, str]:
     """Exit code, and what was said on standard error. Its output goes to that of this process, be it a terminal or a notebook."""
     try:
         terminal = sys.stdout.isatty() and sys.stdout.fileno() == 1
     except (AttributeError, OSError, ValueError):
         terminal = False
     sys.stdout.flush()
-    process = subprocess.Popen(words, stdout=None if terminal else subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+    process = subprocess.Popen(words, stdout=None if terminal and not progress else subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
                                text=True, errors="replace")
     said: list[str] = []
 
@@ -133,7 +159,9 @@ def _wait(words: list[str], quiet: bool) -> tuple[int, str]:
     while True:
         try:
             for line in process.stdout or ():
-                if not quiet:
+                if progress:
+                    progress(line.rstrip("\n"))
+                elif not quiet:
                     sys.stdout.write(line)
             process.wait()
             break

@@ -51,7 +51,7 @@ bool RigidBody::fixed() const {
 }
 
 std::array<Vec, 2> RigidBody::load_at(Real t) const {
-  std::array<Vec, 2> out{Vec::Zero(), Vec::Zero()};
+  std::array<Vec, 2> out = program;
   for (const BodyForceLoad& load : loads) out[load.turns] += load.sf * load.curve(t) * load.direction;
   for (int k = 0; k < 3; ++k) {
     if (held[k]) out[0][k] = 0;
@@ -160,6 +160,7 @@ void RigidBodies::apply(World& world, const Clock& clock) {
   });
   for (RigidBody& b : bodies_) {
     if (b.fixed()) continue;
+    b.program = b.wanted;
     const auto [force, moment] = b.load_at(clock.t);
     b.force = b.m * now(b.x, b.part_index) + force;
     b.moment = moment;
@@ -402,6 +403,8 @@ Real below_of(const RigidBody& b, Real dt) {
 }  // namespace
 
 void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
+  ledger.external_work += program_work_, ledger.throughput += program_moved_;
+  program_work_ = program_moved_ = 0;
   if (clock.cycle == 0)
     for (const RigidBody& b : bodies_) ledger.below_at_start += below_of(b, clock.dt);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -415,7 +418,7 @@ void RigidBodies::record(World&, const Clock& clock, EnergyLedger& ledger) {
     ledger.throughput += std::abs(work);
   }
   for (const RigidBody& b : bodies_) {
-    if (b.fixed() || b.loads.empty()) continue;
+    if (b.fixed() || (b.loads.empty() && !program_loads_)) continue;
     const Real half = 0.5 * clock.dt_mean();
     const auto [force, moment] = b.load_at(clock.t);
     Vec v = b.v + half / b.m * b.force, omega = b.omega + b.turning_by(half * b.moment, b.q);

@@ -49,14 +49,16 @@ struct RigidBody {
   Vec L = Vec::Zero();                    ///< angular momentum about the centre [ML2/T]
   Vec omega = Vec::Zero();                ///< [1/T]
   Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-  Vec force = Vec::Zero(), moment = Vec::Zero();  ///< at the last force evaluation [ML/T2], [ML2/T2]
-  std::vector<BodyForceLoad> loads;               ///< *LOAD_RIGID_BODY
+  Vec force = Vec::Zero(), moment = Vec::Zero();         ///< at the last force evaluation [ML/T2], [ML2/T2]
+  std::vector<BodyForceLoad> loads;                      ///< *LOAD_RIGID_BODY
+  std::array<Vec, 2> program{Vec::Zero(), Vec::Zero()};  ///< force and moment of a program in this step
+  std::array<Vec, 2> wanted{Vec::Zero(), Vec::Zero()};   ///< the same from the next step on
   std::vector<PrescribedMotion> motions;
   Real drive_work = 0;  ///< by `motions` so far [ML2/T2]
 
   bool fixed() const;  ///< nothing can move
   bool has_part(Index part) const { return std::find(parts.begin(), parts.end(), part) != parts.end(); }
-  /// Sum of the forces and of the moments of `loads` at a time, as far as the body can follow.
+  /// Sum of the forces and of the moments of `loads` and `program` at a time, as far as the body can follow.
   std::array<Vec, 2> load_at(Real t) const;
   Real kinetic_energy() const { return 0.5 * (m * v.squaredNorm() + omega.dot(L)); }
   /// Integral of r r^T dm over the body, r from the centre, as it is turned now. [ML2]
@@ -150,6 +152,12 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void tie(BodyTies* ties) { ties_ = ties; }
   /// Changes the velocity of the centre and the angular momentum before the first step. [ML/T], [ML2/T]
   void strike_at_start(std::size_t body, const Vec& impulse, const Vec& turn, World& world);
+  /// Force and moment about the centre that a program sets, from the next step on until they are changed;
+  /// along axes that are held they do nothing. [ML/T2], [ML2/T2]
+  void set_program_load(std::size_t body, const Vec& force, const Vec& moment);
+  /// The same of velocity and angular velocity, at a time level; the energy counts as work from outside.
+  /// Returns why not, empty where it is done. [L/T], [1/T]
+  std::string set_program_motion(std::size_t body, const Vec& v, const Vec& omega);
   /// Velocities and angular momenta times a factor, of bodies alone: their nodes get theirs with the next
   /// step.
   void slow_down(Real factor);
@@ -187,6 +195,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   std::vector<Damping> damping_;
   std::vector<std::array<Vec, 2>> damped_;  ///< force and moment that damping takes, of each body
   BodyTies* ties_ = nullptr;
+  Real program_work_ = 0, program_moved_ = 0;  ///< by changes of motion since the ledger was told [ML2/T2]
+  bool program_loads_ = false;                 ///< a program has set some
 };
 
 /// The largest that the kinetic energy of masses at the nodes of a body can be over its own, however it

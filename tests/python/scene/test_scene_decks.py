@@ -145,11 +145,17 @@ def test_velocities_of_many_digits_have_wide_fields(tmp_path: Path) -> None:
 
 def test_water_in_a_box_needs_no_cards(tmp_path: Path) -> None:
     out = written(tmp_path, "title: box\nwater: {spacing: 0.1, density: 900, blocks: [{low: [0, 0], high: [0.4, 0.2]}]}\n"
-                            "box: {low: [0, 0], high: [1, 0.5], open: [top, right]}\ngravity: 10\nend: 3\n")
+                            "box: {low: [0, 0], high: [1, 0.5], open: [top, right]}\nwall_method: contact\ngravity: 10\nend: 3\n")
     assert "1 water: 8 particles" in out.deck
     assert "11 walls: 30 shells" in out.deck  # floor of 1 and wall of 0.5 in shells of half a spacing
     assert out.has_fields("1", "0", "1440000")  # 20 sqrt(2 * 10 * 0.2) = 40
     assert "*LOAD_BODY_Y" in out.deck
+
+
+@pytest.mark.parametrize(("method", "mirrors"), [("", True), ("wall_method: auto\n", True), ("wall_method: contact\n", False)])
+def test_walls_are_mirrors_if_nothing_else_is_said(tmp_path: Path, method: str, mirrors: bool) -> None:
+    out = written(tmp_path, "title: box\nwater: {spacing: 0.1, blocks: [{low: [0, 0], high: [0.4, 0.2]}]}\nbox: {low: [0, 0], high: [1, 0.5]}\n" + method + "end: 3\n")
+    assert ("*COURANT_WALL_SUPPORT" in out.deck) == mirrors
 
 
 def test_water_of_three_dimensions_falls_along_z(tmp_path: Path) -> None:

@@ -71,3 +71,13 @@ def test_messages_are_read_as_they_are_printed() -> None:
     assert [(one.severity, one.where.file, one.where.line, one.where.column, one.message, one.hint, one.field) for one in found.all] == [
         ("error", "a b.k", 3, 11, "*MAT_NULL field 2 (RO, density [M/L3]): wrong", "do", "RO"), ("error", "", 0, 0, "no deck", "", ""),
         ("note", "scene.yaml", 0, 0, "c: d", "", "")]
+
+
+def test_the_total_force_on_walls_is_the_weight_of_the_water(tmp_path: Path) -> None:
+    run = tank().run(tmp_path / "out", threads=1, quiet=True)
+    force = run.wall_force()
+    water = sum(run.states[-1]["mass"].astype(float))
+    late = force["t"] > 0.5 * force["t"][-1]
+    assert force["force.y"][late].mean() == pytest.approx(-9.81 * water, rel=0.02) and force.units["force.y"] == "N"
+    with pytest.raises(KeyError, match="no contact 7"):
+        run.wall_force(7)

@@ -100,7 +100,7 @@ class _SeriesAnalysis(Analysis):
         for name, value in numbers.items():
             self.add_scalar(f"{one.name}_{name}", one.unit, value)
         gap = bool(np.isnan(values).any())
-        self.add_scalar(f"{one.name}_integral", f"{one.unit} {self.units.time}", math.nan if gap else np.cumsum(np.append(0.0, steps[beside]))[-1])
+        self.add_scalar(f"{one.name}_integral", self.units.product(one.unit, self.units.time), math.nan if gap else np.cumsum(np.append(0.0, steps[beside]))[-1])
         self.say(
             f"  {one.name}: mean {numbers['mean']:.5g} {one.unit}, deviation {numbers['deviation']:.3g}, "
             f"{float(moments.least):.5g} to {float(moments.most):.5g}\n"
@@ -260,7 +260,7 @@ class SpectrumAnalysis(Analysis):
         return out
 
     def _unit(self, one: Series) -> str:
-        return f"({one.unit})2 {self.units.time}"
+        return self.units.product(f"({one.unit})2", self.units.time)
 
     def _write(self, found: list[tuple[Series, Spectrum]], alike: bool, all_series: int, t: np.ndarray) -> None:
         """`alike`: the series have one unit."""

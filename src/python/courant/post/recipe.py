@@ -64,8 +64,8 @@ class Recipe:
         return bool(self.jump or self.probes or self.snapshots) or any(one.needs_states for one in self.analyses)
 
 
-def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe | None:
-    """Every fault is told with its place; then there is None."""
+def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics, units: Units = Units()) -> Recipe | None:  # noqa: B008  frozen
+    """All faults are reported; then there is None. `units`: of the run, where the recipe names none."""
     out = Recipe(str(file))
     root = load_yaml(out.file, "recipe", "a recipe is a YAML file such as keyword_decks/*/post.yaml", diagnostics)
     if root is None:
@@ -80,7 +80,7 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics) -> Recipe |
         out.jump = _read_jump(jump)
     if snapshots := keys.map("snapshots"):
         out.snapshots = snapshots.read(SnapshotRecipe)
-    out.settings = _read_settings(keys)
+    out.settings = _read_settings(keys, units)
     if missing := keys.map("missing"):
         missing.allow("density", "smoothing_length")
         out.missing = {name: missing.positive(name, 1) for name in ("density", "smoothing_length") if missing.has(name)}
@@ -110,8 +110,7 @@ def _read_jump(keys: YamlMap) -> JumpRecipe:
     return keys.read(JumpRecipe, "intervals", "published", "toe", "front", **known)
 
 
-def _read_settings(keys: YamlMap) -> Settings:
-    units = Units()
+def _read_settings(keys: YamlMap, units: Units) -> Settings:
     if of := keys.map("units"):
         of.allow("mass", "length", "time")
         units = Units(of.text("mass", "kg"), of.text("length", "m"), of.text("time", "s"))

@@ -14,6 +14,8 @@ from ..diagnostics import Diagnostics
 from ..fields import ParticleFrame, StateFiles, Wanted, open_field, read_particles, read_states, read_walls, slack_of
 from ..files import make_folder, write_file
 from ..optional import MissingModule
+from ..results import Results
+from ..units import MODEL_UNITS
 from ..variables import wanted_array
 from ..yaml_map import YamlMap, is_map, parse_yaml
 from .analyses import Analysis, Run
@@ -141,7 +143,6 @@ def _figures(recipe: Recipe, out: Path, title: str, walls: np.ndarray, threads: 
 
 def _views(recipe: Recipe, folder: Path, out: Path, diagnostics: Diagnostics) -> str:
     """Draws the views; gives what is to be said of them. Raises OutputError."""
-    from ..results import Results
     from .views import draw_views
 
     make_folder(out)
@@ -173,7 +174,7 @@ def run_post(
     `diagnostics`, also the warning where pictures could not be drawn. `threads`: processes that work at once; results have the same bits
     for any number. Raises OutputError where a file cannot be written.
     """
-    recipe = read_recipe(recipe_file, diagnostics)
+    recipe = read_recipe(recipe_file, diagnostics, Results(folder).units if Path(folder).is_dir() else MODEL_UNITS)
     if recipe is None:
         return False
     folder = Path(folder)

@@ -82,7 +82,7 @@ def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
     """Single variables know their unit, other expressions have "?" unless the recipe tells."""
 
     def unit_of(text: str) -> str:
-        return f"1/{units.time}" if text == "vorticity" else units.of_text(dimension_of(text) or "?")
+        return units.per_time if text == "vorticity" else units.of_text(dimension_of(text) or "?")
 
     if not is_map(node):
         name, unit, of = scalar_text(node), unit_of(scalar_text(node)), read_expression(keys, node, "of")

@@ -64,6 +64,8 @@ def field_names(mesh: Any) -> list[str]:
         parts = [f"{name}.{part}" for part in _parts(name, array.components)]
         whole = array.components == 1 or (array.components == 3 and name not in _RESULTANTS)
         out += ["speed"] * (name == "velocity") + [name] * whole + parts
+    if mesh.has_displacement:
+        out += ["displacement", *(f"displacement.{axis}" for axis in _VECTOR)]
     if _has_vorticity(mesh):
         out += ["vorticity"] + [f"vorticity.{axis}" for axis in _VECTOR if not _is_flat(mesh)]
     return list(dict.fromkeys(out))
@@ -104,8 +106,9 @@ def field_of(mesh: Any, name: str) -> FieldValues:
         values = mises(values) if part == "mises" else values[:, :3].mean(axis=1) if part == "mean" else values[:, parts.index(part)]
     elif values.ndim > 1:
         values = np.sqrt((values**2).sum(axis=1))
-    section = "particles" if mesh.path.suffix == ".vtp" else "nodes" if ("PointData", array) in mesh._file.arrays else "elements"
-    return FieldValues(name, values, f"1/{mesh._units.time}" if made else mesh.unit(array), section)
+    at_nodes = ("PointData", array) in mesh._file.arrays or array == "displacement"
+    section = "particles" if mesh.path.suffix == ".vtp" else "nodes" if at_nodes else "elements"
+    return FieldValues(name, values, mesh._units.per_time if made else mesh.unit(array), section)
 
 
 @dataclass

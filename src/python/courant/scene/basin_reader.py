@@ -188,8 +188,8 @@ class BasinReader(ShapeReader):
         node = self.get(root, "wall_method")
         # mirrors of many faces take most of the time of a run
         shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
-        asked = self.text(node) if node is not None else "" if basin.solids or basin.box_motion else "contact"
-        basin.method = asked if asked not in ("", "auto") else "mixed" if shaped else "mirrors"
+        asked = self.text(node) if node is not None else "auto"
+        basin.method = asked if asked != "auto" else "mixed" if shaped else "mirrors"
         if node is not None:
             if asked not in (*METHODS, "auto"):
                 self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")

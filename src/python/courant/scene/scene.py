@@ -83,8 +83,6 @@ class Scene:
         for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "wall_method": wall_method}.items():
             if value is not None:
                 self._set(self._root, key, value, mark)
-        if wall_method is None:
-            self._set(self._root, "wall_method", "auto", mark)
         self._set(self._root, "water", {key: value for key, value in water.items() if value is not None}, mark)
         self._get("water").flow_style = False
 
@@ -104,6 +102,13 @@ class Scene:
             raise CourantError(diagnostics)
         scene._model()
         return scene
+
+    def with_parameters(self, **parameters: Number) -> Scene:
+        """The same scene with other values for some of its parameters."""
+        other = self.__class__.__new__(self.__class__)
+        other.__dict__ |= self.__dict__
+        other._overrides = self._overrides | {name: value if isinstance(value, str) else shortest(float(value)) for name, value in parameters.items()}
+        return other
 
     # what is in it
 
@@ -186,8 +191,18 @@ class Scene:
 
     def run(self, folder: str | PathLike[str] = "results", **options: Any) -> Any:
         """Writes the deck to the folder and runs it: courant.run has the options and what is raised."""
-        from ..files import make_folder
         from ..running import run
+
+        return run(self._written_to(folder), folder, **options)
+
+    def steps(self, folder: str | PathLike[str] = "results", *, every: float = 0.0, every_steps: int = 0, **options: Any) -> Any:
+        """The same as a loop over the states while the run goes on: `for state in scene.steps(every=0.01)`, see courant.steps."""
+        from ..stepping import steps
+
+        return steps(self._written_to(folder), folder, every=every, every_steps=every_steps, **options)
+
+    def _written_to(self, folder: str | PathLike[str]) -> Path:
+        from ..files import make_folder
 
         diagnostics = Diagnostics()
         try:
@@ -195,7 +210,7 @@ class Scene:
         except OutputError as fault:
             diagnostics.error(fspath(folder), str(fault))
         self._raise(diagnostics)
-        return run(self.write(Path(folder, Path(self._name).stem + ".k")), folder, **options)
+        return self.write(Path(folder, Path(self._name).stem + ".k"))
 
     # the description
 

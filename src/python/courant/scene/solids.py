@@ -180,7 +180,7 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
     mirrors += [solid.part for solid in basin.solids if solid.mirrors(basin.method)]
     if mirrors:
         out += [part_set(MIRRORS, mirrors), _MIRRORS]
-    if basin.method == "mixed":
+    if basin.method == "mixed" and not all(solid.mirrors(basin.method) for solid in basin.solids):
         out.append(substitute(_TOUCHING, variables))
     if bodies and held and basin.dim == 3:  # elements of the plane do not touch each other
         out += [part_set(HELD, held), part_set(BODIES, bodies), _BODIES]
