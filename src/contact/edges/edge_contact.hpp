@@ -29,7 +29,8 @@ class EdgeContact : public Force,
                     public TimeLimit,
                     public EnergyTerm,
                     public Restartable,
-                    public InterfaceReporter {
+                    public InterfaceReporter,
+                    public PointForceReporter {
  public:
   /// `nodes`: of the same card, null: none. A pair begins no touch while that holds a node of one edge at a
   /// face of the other.
@@ -46,6 +47,7 @@ class EdgeContact : public Force,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const override;
+  void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
   void keep(Archive& archive) override;
 
   /// What touches leave for all nodes; complete after `finish`.
