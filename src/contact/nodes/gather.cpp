@@ -195,7 +195,7 @@ void NodeContact::report_point_forces(const World& world,
     for (std::size_t e = 0; e < touch.N.size(); ++e)
       take({.segment = on.segment,
             .point = world.nodes.x.vec(on.node[e]),
-            .force = -touch.N[e] * touch.force + touch.tilt[e] * touch.lever});
+            .force = -touch.N[e] * touch.force + touch.lever * touch.tilt[e]});
   }
 }
 
