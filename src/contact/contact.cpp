@@ -284,6 +284,14 @@ void Contact::give_to_wall(World& world, const Block& b, std::size_t touch,
   written_.push_back(s);
 }
 
+void Contact::report_point_forces(const World&, const std::function<void(const PointForce&)>& take) {
+  for (const Block& b : blocks_)
+    for (std::size_t t = 0; t < b.touches.size(); ++t)
+      take({.segment = facets_[b.touches[t].facet].segment,
+            .point = b.touches[t].q,
+            .force = -force_of(b, t)});
+}
+
 TimeLimit::Limit Contact::limit(const World& world, const Clock&) {
   Real dt = limit_;
   std::string who = name() + " (particle stiffness)";

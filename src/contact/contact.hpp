@@ -18,6 +18,7 @@
 #include "keyword/deck.hpp"
 #include "loads/sensors/sensors.hpp"
 #include "model/model.hpp"
+#include "state/reports.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
 #include "state/world.hpp"
@@ -65,6 +66,7 @@ class Contact : public Force,
                 public TimeLimit,
                 public Impact,
                 public EnergyTerm,
+                public PointForceReporter,
                 public Restartable {
  public:
   /// `tracked`: by particle index. `number` counts interfaces from 1 and keeps their fields apart.
@@ -97,6 +99,7 @@ class Contact : public Force,
   InterfaceForce report() const;
   /// Whether it has pushed anything so far.
   bool has_acted() const { return acted_; }
+  void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
 
   /// What a restart needs besides the particle fields: energies dissipated so far, the step that SOFT 1 uses,
   /// and what is known of particles near walls since neighbours were searched last.

@@ -35,6 +35,13 @@ std::string innermost_error() {
   return text.empty() ? "HDF5 failed" : "HDF5 failed: " + text;
 }
 
+/// Of a dataset of a gauge, its name; else empty.
+std::string gauge_of(const std::string& path) {
+  constexpr std::string_view group = "gauges/";
+  if (!path.starts_with(group)) return "";
+  return path.substr(group.size(), path.rfind('/') - group.size());
+}
+
 std::string content(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -88,8 +95,9 @@ class HistoryFile {
   }
 
   /// Rows of the longest dataset; `most` at most. Those behind are taken off, and datasets that are shorter,
-  /// because a run that went on had nothing to say of them, get NaN.
-  std::size_t cut(std::size_t most) {
+  /// because a run that went on had nothing to say of them, get NaN. `gauges`: rows of each gauge, and on
+  /// return those that are there.
+  std::size_t cut(std::size_t most, std::map<std::string, std::int64_t>& gauges) {
     std::vector<std::string> paths;
     check(H5Ovisit(
         file_, H5_INDEX_NAME, H5_ITER_NATIVE,
@@ -106,6 +114,13 @@ class HistoryFile {
         Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
         hsize_t size[2] = {0, 0};
         check(H5Sget_simple_extent_dims(space, size, nullptr));
+        if (const std::string gauge = gauge_of(path); !gauge.empty()) {
+          std::int64_t& of_gauge = gauges[gauge];
+          size[0] = std::min<hsize_t>(size[0], static_cast<hsize_t>(of_gauge));
+          of_gauge = static_cast<std::int64_t>(size[0]);
+          if (!only_look) check(H5Dset_extent(dataset, size));
+          continue;
+        }
         if (only_look) rows = std::min(most, std::max<std::size_t>(rows, size[0]));
         size[0] = rows;
         if (!only_look) check(H5Dset_extent(dataset, size));
@@ -188,12 +203,14 @@ History::History(std::filesystem::path file, std::size_t buffered_samples, std::
       wait_(longest_wait),
       last_flush_(std::chrono::steady_clock::now()) {}
 
-std::size_t History::resume(std::size_t rows) {
+std::size_t History::resume(std::size_t rows, const std::map<std::string, std::int64_t>& gauge_rows) {
   std::error_code none;
   if (!std::filesystem::exists(file_, none)) return 0;
   const Hdf5Use use(file_, 4 * std::filesystem::file_size(file_, none));
   HistoryFile h5(file_, content(file_));
-  rows_in_file_ = h5.cut(rows);
+  std::map<std::string, std::int64_t> of_gauges = gauge_rows;
+  rows_in_file_ = h5.cut(rows, of_gauges);
+  for (const auto& [name, count] : of_gauges) gauges_[name].rows_in_file = static_cast<std::size_t>(count);
   write_checked(file_, h5.image());
   return rows_in_file_;
 }
@@ -209,8 +226,35 @@ void History::record(const Sample& sample) {
     flush();
 }
 
+// The other flushes write what is buffered of gauges, too.
+void History::record_gauge(const GaugeLayout& layout, Real t, const std::vector<Real>& values) {
+  constexpr std::size_t most_rows = 8192;
+  OwnRows& own = gauges_[layout.name];
+  if (own.columns.empty()) {
+    const std::string group = "/gauges/" + layout.name;
+    if (!layout.title.empty()) titles_[group] = layout.title;
+    own.columns.push_back({group + "/time", {"T", 1, {}}});
+    for (const GaugeLayout::Column& column : layout.columns)
+      own.columns.push_back({group + "/" + column.name, {column.dimension, column.components, {}}});
+  }
+  const Real* value = &t;
+  for (auto& [path, c] : own.columns) {
+    c.values.insert(c.values.end(), value, value + c.components);
+    value = value == &t ? values.data() : value + c.components;
+  }
+  if (++own.rows >= most_rows || std::chrono::steady_clock::now() - last_flush_ >= wait_) flush();
+}
+
+std::map<std::string, std::int64_t> History::gauge_rows() const {
+  std::map<std::string, std::int64_t> out;
+  for (const auto& [name, own] : gauges_) out[name] = static_cast<std::int64_t>(own.rows + own.rows_in_file);
+  return out;
+}
+
 std::size_t History::bytes_buffered() const {
   std::size_t numbers = 0;
+  for (const auto& [name, own] : gauges_)
+    for (const auto& [path, c] : own.columns) numbers += c.values.size();
   for (const auto& [path, c] : columns_) numbers += c.values.size();
   return sizeof(double) * numbers;
 }
@@ -225,15 +269,27 @@ std::size_t History::enough_rows() const {
 
 void History::flush() {
   last_flush_ = std::chrono::steady_clock::now();
-  if (rows_ == 0) return;
+  const auto has_rows = [](const auto& gauge) { return gauge.second.rows > 0; };
+  if (rows_ == 0 && std::none_of(gauges_.begin(), gauges_.end(), has_rows)) return;
   std::error_code none;
-  const std::size_t before = rows_in_file_ > 0 ? std::filesystem::file_size(file_, none) : 0;
+  const auto in_file = [](const auto& gauge) { return gauge.second.rows_in_file > 0; };
+  const bool begun = rows_in_file_ > 0 || std::any_of(gauges_.begin(), gauges_.end(), in_file);
+  const std::size_t before = begun ? std::filesystem::file_size(file_, none) : 0;
   constexpr std::size_t of_dataset = 8192;
   const Hdf5Use use(file_, 4 * (before + bytes_buffered()) + columns_.size() * of_dataset);
-  HistoryFile h5(file_, rows_in_file_ > 0 ? content(file_) : std::string());
+  HistoryFile h5(file_, begun ? content(file_) : std::string());
   for (auto& [path, c] : columns_) {
+    if (rows_ == 0) break;
     c.values.resize(rows_ * static_cast<std::size_t>(c.components), std::numeric_limits<double>::quiet_NaN());
     h5.append(path, c.dimension, c.components, c.values, rows_in_file_);
+  }
+  for (auto& [name, own] : gauges_) {
+    if (own.rows == 0) continue;
+    for (auto& [path, c] : own.columns) {
+      h5.append(path, c.dimension, c.components, c.values, own.rows_in_file);
+      c.values.clear();
+    }
+    own.rows_in_file += own.rows, own.rows = 0;
   }
   for (const auto& [group, title] : titles_) h5.set_title(group, title);
   write_checked(file_, h5.image());

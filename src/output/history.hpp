@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "output/file.hpp"
@@ -24,6 +25,7 @@ namespace courant {
 ///   /nodes/<id>/{displacement x v a}, of those that turn also {rotation omega angular_a}
 ///   /driven_particles/<id>/{force work}, /driven_bodies/<part id>/{force moment work},
 ///   /held_particles/<id>/force, /driven_rotations/<id>/{moment work}, /held_rotations/<id>/moment
+///   /gauges/<name>/{time ...}: rows of their own, at the times of that gauge
 /// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it
 /// at any time.
 class History {
@@ -33,11 +35,15 @@ class History {
 
   /// Goes on with the file that is there, behind its first `rows` rows; what stands behind them is taken off.
   /// Returns how many rows it goes on from: less where the file has less. Throws OutputError.
-  std::size_t resume(std::size_t rows);
+  /// `gauge_rows`: the same of the groups of gauges, which have rows of their own.
+  std::size_t resume(std::size_t rows, const std::map<std::string, std::int64_t>& gauge_rows = {});
   std::size_t rows() const { return rows_in_file_ + rows_; }  ///< samples so far
 
   /// Adds a sample; writes to the file when the buffer is full or old. Throws OutputError.
   void record(const Sample& sample);
+  /// The same of one gauge, in rows of its own. Throws OutputError.
+  void record_gauge(const GaugeLayout& layout, Real t, const std::vector<Real>& values);
+  std::map<std::string, std::int64_t> gauge_rows() const;  ///< so far, by name of the gauge
   /// Appends what is buffered. Call it at the end of the run. Throws OutputError.
   void flush();
 
@@ -46,6 +52,11 @@ class History {
     std::string dimension;
     int components = 1;
     std::vector<double> values;  // shape: (buffered rows, components)
+  };
+  /// Of one gauge.
+  struct OwnRows {
+    std::vector<std::pair<std::string, Column>> columns;  // path, values
+    std::size_t rows = 0, rows_in_file = 0;
   };
   void put(const std::string& path, const char* dimension, double value);
   void put(const std::string& path, const char* dimension, const Vec& value);
@@ -64,6 +75,7 @@ class History {
   std::chrono::steady_clock::duration wait_;
   std::chrono::steady_clock::time_point last_flush_;
   std::map<std::string, Column> columns_;
+  std::map<std::string, OwnRows> gauges_;      // by name
   std::map<std::string, std::string> titles_;  // of groups
   std::size_t rows_ = 0;                       // buffered
   std::size_t rows_in_file_ = 0;

@@ -45,6 +45,7 @@ bool is_listed_result(const std::filesystem::path& name_in_folder) {
   const std::filesystem::path folder = name_in_folder.parent_path();
   if (folder == "fields") return is_field_name(name);
   if (folder == "restart") return name.ends_with(".h5");
+  if (folder == result_names::gauges) return name.ends_with(".csv");
   const auto is_name = [&](const char* one) { return name == one; };
   return folder.empty() &&
          (is_d3plot(name) ||

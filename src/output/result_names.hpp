@@ -14,8 +14,9 @@ inline constexpr const char* relaxation = "relax";
 inline constexpr const char* lock = ".courant_lock";
 inline constexpr const char* binout = "binout0000";
 inline constexpr const char* d3plot = "d3plot";  ///< and d3plot01, d3plot02, ...
+inline constexpr const char* gauges = "gauges";  ///< folder: NAME.csv of each gauge
 inline constexpr const char* whole[] = {messag, summary, history, fields_index, relaxation, lock, binout};
-inline constexpr const char* folders[] = {"fields", "restart", "restart_old"};
+inline constexpr const char* folders[] = {"fields", "restart", "restart_old", gauges};
 }  // namespace result_names
 
 /// The name without the ending of files that are being written.

@@ -44,6 +44,24 @@ struct NodeSample {
   Vec omega = Vec::Zero(), angular_a = Vec::Zero();  ///< [1/T], [1/T2]
 };
 
+/// What a gauge measures: the columns of its file and datasets behind the time.
+struct GaugeLayout {
+  struct Column {
+    std::string name;
+    std::string dimension;
+    int components = 1;  ///< 1 or 3
+  };
+  std::string name{};  ///< of its file, and of its group in history.h5
+  std::string title{};
+  std::vector<Column> columns{};
+};
+
+/// Values of one gauge, in the order of its columns; NaN where there is nothing to measure.
+struct GaugeSample {
+  std::size_t gauge = 0;  ///< number of the gauge in the deck, from 0
+  std::vector<Real> values{};
+};
+
 struct Sample {
   Real t = 0;  ///< [T]
   Real dt = 0;
@@ -61,7 +79,8 @@ struct Sample {
   std::vector<NodeSample> nodes;              ///< those of DATABASE_HISTORY_NODE, by id
   std::vector<BoundaryForce> boundary_forces;
   std::vector<RigidWallForce> rigid_walls;
-  std::vector<std::string> added;  ///< states of histories that files add, in the order of their registry
+  std::vector<GaugeSample> gauges;  ///< those that are due
+  std::vector<std::string> added;   ///< states of histories that files add, in the order of their registry
 };
 
 }  // namespace courant

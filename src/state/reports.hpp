@@ -1,5 +1,6 @@
 #pragma once
 // What passes can tell of themselves for the histories, when somebody asks.
+#include <functional>
 #include <vector>
 
 #include "state/world.hpp"
@@ -65,6 +66,19 @@ struct WallForceReporter {
   virtual InterfaceForce report(const World& world) const = 0;
   /// Adds the forces on the walls to nodes.f and segments.contact_force until the next step.
   virtual void show_forces(World& world) = 0;
+};
+
+/// A force of contact, or of a wall that supports particles, where it acts at t^n.
+struct PointForce {
+  Index segment = -1;                            ///< on which it acts; -1: on a node
+  Index node = -1;                               ///< of World::nodes
+  Vec point = Vec::Zero(), force = Vec::Zero();  ///< [L], [ML/T2]
+};
+/// A pass that acts on faces and nodes, moving or held.
+struct PointForceReporter {
+  virtual ~PointForceReporter() = default;
+  virtual void report_point_forces(const World& world,
+                                   const std::function<void(const PointForce&)>& take) = 0;
 };
 
 /// An interface of nodes and faces.

@@ -25,6 +25,7 @@ MAY_INCLUDE = {
     "contact": ["loads", "search", "state", "keyword", "model", "surfaces", "extension"],
     "output": ["state"],
     "d3plot": ["elements", "rigid", "extension", "output"],
+    "gauges": ["sph", "rigid", "extension", "output"],
     "time": ["state", "search", "output"],
     "vtk": ["state", "output"],
 }

@@ -130,10 +130,12 @@ def test_figures_that_name_what_is_not_there(tmp_path):
 figures:
   - {name: a, curves: [{table: dept, x: t, y: t}]}
   - {name: b, curves: [{table: depth_mean, x: x, y: meen}]}
+  - {name: c, curves: [{table: depth, x: t, y: depth}]}
 """
     _, faults = post(tmp_path, recipe, good=False)
     assert ":3:24: error: there is no table 'dept' for the figure\n  hint: there are: depth, depth_mean" in faults
     assert ":4:24: error: 'y' of a curve from 'depth_mean': unknown name 'meen'" in faults
+    assert "unknown name 'depth'\n  hint: the table has t, depth@0.2, depth@0.8; a name like depth@0.2 must be all of 'y'" in faults
     assert (tmp_path / "post/depth_mean.csv").stat().st_size > 50
 
 
@@ -149,6 +151,17 @@ def test_a_recipe_of_histories_needs_no_states(tmp_path):
     said, _ = post(tmp_path, "analyses: [{kind: history, name: h, of: [global/kinetic]}]\n")
     assert said.startswith("h (history)\n  global/kinetic: mean 1.5 model units, deviation 1.12, 0 to 3\n")
     assert results(tmp_path)["analyses"]["h"]["global/kinetic_integral"] == {"value": 4.5, "unit": "model units"}
+
+
+def test_a_history_of_gauges_has_their_times(tmp_path):
+    own = np.arange(0.0, 4.5, 0.5)
+    gauge = {"gauges/p/time": (own, "T"), "gauges/p/pressure": (own**2, "M/LT2")}
+    write_history(tmp_path, {"global/time": (np.arange(4.0), "T"), "global/kinetic": (np.arange(4.0), "ML2/T2")} | gauge)
+    post(tmp_path, "analyses: [{kind: history, name: h, of: [gauges/p/pressure]}]\n")
+    rows = np.genfromtxt(tmp_path / "post/h.csv", delimiter=",", skip_header=1)
+    assert rows[:, 0].tolist() == own.tolist() and rows[:, 1].tolist() == (own**2).tolist()
+    _, faults = post(tmp_path, "analyses: [{kind: history, name: h, of: [gauges/p/pressure, global/kinetic]}]\n", good=False)
+    assert "'/global/kinetic' and '/gauges/p/pressure' have different times" in faults
 
 
 def test_numbers_that_are_none(tmp_path):

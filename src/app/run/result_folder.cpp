@@ -40,6 +40,13 @@ bool is_relaxation(const fs::path& file) {
   return std::getline(stream, line) && line.rfind("#         time       kinetic         ratio", 0) == 0;
 }
 
+/// Whether a run wrote it for a gauge.
+bool is_gauge_file(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string line;
+  return std::getline(stream, line) && line.starts_with("time,");
+}
+
 }  // namespace
 
 bool is_result_name(const fs::path& name_in_folder) {
@@ -65,6 +72,9 @@ void remove_results(const fs::path& dir) {
   std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
   for (const fs::path& file : entries(dir / "fields"))
     if (is_result_name("fields" / file.filename())) fs::remove(file, ignored);
+  for (const fs::path& file : entries(dir / result_names::gauges))
+    if (is_result_name(fs::path(result_names::gauges) / file.filename()) && is_gauge_file(file))
+      fs::remove(file, ignored);
   for (const char* name : result_names::whole) {
     const std::string one = name;
     if (one == result_names::lock || (one == result_names::relaxation && !is_relaxation(dir / one))) continue;

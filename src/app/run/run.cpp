@@ -322,7 +322,8 @@ class Run {
 
   void write_histories(bool always) {
     const Histories::Due due = histories_.take(s_.clock().t, s_.clock().dt, always);
-    Sample sample = s_.sample(who_);
+    const bool whole = always || histories_.needs_whole_sample(due);
+    Sample sample = s_.sample(who_, whole, histories_.due_gauges(due));
     const auto steps = std::max<std::int64_t>(summary_.particle_steps + summary_.element_steps, 1);
     sample.ns_per_zone_cycle = 1e9 * wall_seconds() / static_cast<double>(steps);
     if (!std::isfinite(sample.energy.total())) s_.guard().look(s_.world(), s_.clock());

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "extension/additions.hpp"
+#include "gauges/gauge.hpp"
 #include "model/requests/output_times.hpp"
 
 namespace courant {
@@ -59,6 +60,9 @@ HistoryRequests history_requests(const Simulation& s) {
     h.ask(name, schedule(asked.times), asked.binary);
   for (std::size_t k = 0; k < ascii_histories().size(); ++k)
     h.files.push_back(request_of(ascii_histories()[k], k, s));
+  for (const Gauges* gauges : s.world().passes.all<const Gauges>())
+    for (std::size_t k = 0; k < gauges->all().size(); ++k)
+      h.ask_gauge(k, gauges->all()[k]->layout(), gauges->all()[k]->interval());
   return h;
 }
 

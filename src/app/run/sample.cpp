@@ -6,6 +6,7 @@
 #include "app/run/simulation.hpp"
 #include "elements/shape_watch.hpp"
 #include "extension/additions.hpp"
+#include "gauges/gauge.hpp"
 #include "state/shared_fields.hpp"
 #include "state/tied_mass.hpp"
 
@@ -199,11 +200,21 @@ void Simulation::show_wall_forces() {
   for (auto* filler : world_.passes.all<FieldFiller>()) filler->fill_fields(world_);
 }
 
-Sample Simulation::sample(const std::string& dt_controlled_by) {
-  sample_energy(world_, clock_);
+Sample Simulation::sample(const std::string& dt_controlled_by, bool whole,
+                          const std::vector<std::size_t>& gauges) {
   Sample s;
-  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle, s.dt_set_by = dt_controlled_by,
-  s.energy = world_.energy;
+  s.t = clock_.t, s.dt = clock_.dt, s.cycle = clock_.cycle;
+  if (whole) sample_all(dt_controlled_by, s);
+  if (gauges.empty()) return s;
+  const auto motions = bodies() ? bodies()->motions(clock_) : std::vector<RigidBodyMotion>();
+  for (const auto* all : world_.passes.all<const Gauges>())
+    s.gauges = all->measure(world_, clock_, motions, gauges);
+  return s;
+}
+
+void Simulation::sample_all(const std::string& dt_controlled_by, Sample& s) {
+  sample_energy(world_, clock_);
+  s.dt_set_by = dt_controlled_by, s.energy = world_.energy;
   if (bodies()) s.bodies = bodies()->reports(), s.body_motions = bodies()->motions(clock_);
   sample_parts(world_, model_, s);
   for (auto* watch : world_.passes.all<MomentumWatch>()) watch->look(s, world_);
@@ -225,7 +236,6 @@ Sample Simulation::sample(const std::string& dt_controlled_by) {
     if (const Index i = index.at(id); i >= 0)
       s.particles.push_back(particle_sample(world_, neighbours(), clock_, i));
   sample_nodes(model_.output.history_node, world_, bodies(), clock_, s);
-  return s;
 }
 
 }  // namespace courant

@@ -42,8 +42,10 @@ class Simulation {
   /// `courant check` prints) or once at the end of a run: density advances here, so a step after it would
   /// advance density twice.
   void evaluate(std::string& dt_controlled_by);
-  /// Everything the histories print at the present time.
-  Sample sample(const std::string& dt_controlled_by);
+  /// Everything the histories print at the present time, or only that time where not the `whole` of it is
+  /// asked for; and the gauges of these numbers.
+  Sample sample(const std::string& dt_controlled_by, bool whole = true,
+                const std::vector<std::size_t>& gauges = {});
   /// Adds the forces on walls that do not move to nodes and segments, until the next step.
   void show_wall_forces();
 
@@ -101,6 +103,7 @@ class Simulation {
   void make_stepper();
   Neighbours* lists() const { return get<std::shared_ptr<Neighbours>>().get(); }
   std::vector<PassNote> outputs(bool wanted) const;
+  void sample_all(const std::string& dt_controlled_by, Sample& s);
 
   Deck deck_;
   DeckRecord record_;

@@ -29,7 +29,8 @@ class EdgeContact : public Force,
                     public TimeLimit,
                     public EnergyTerm,
                     public Restartable,
-                    public InterfaceReporter {
+                    public InterfaceReporter,
+                    public PointForceReporter {
  public:
   /// `nodes`: of the same card, null: none. A pair begins no touch while that holds a node of one edge at a
   /// face of the other.
@@ -47,6 +48,7 @@ class EdgeContact : public Force,
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const override;
   bool has_acted() const override { return acted_; }
+  void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
   void keep(Archive& archive) override;
 
   /// What touches leave for all nodes; complete after `finish`.

@@ -181,6 +181,20 @@ void EdgeContact::sample(const World&, const Clock&, EnergyLedger& ledger) const
   for (const Touch& touch : touches_) ledger.contact += touch.stored;
 }
 
+// On the first face of each edge that is there, as the field of contact forces has them.
+void EdgeContact::report_point_forces(const World& world,
+                                      const std::function<void(const PointForce&)>& take) {
+  for (const Touch& touch : touches_)
+    for (int c = 0; c < 4; ++c)
+      for (const Index s : edge(c < 2 ? touch.a : touch.b).faces) {
+        if (eroded_ && (*eroded_)[s] != 0) continue;
+        take({.segment = s,
+              .point = world.nodes.x.vec(node_of(touch, c)),
+              .force = share_of(touch, c) * touch.force});
+        break;
+      }
+}
+
 InterfaceForce EdgeContact::report() const {
   InterfaceForce out;
   out.id = law_.id ? law_.id : Id(number_);

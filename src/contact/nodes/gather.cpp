@@ -187,6 +187,18 @@ InterfaceForce NodeContact::report() const {
   return out;
 }
 
+void NodeContact::report_point_forces(const World& world,
+                                      const std::function<void(const PointForce&)>& take) {
+  for (const Touch& touch : touches_) {
+    take({.node = touch.node, .point = world.nodes.x.vec(touch.node), .force = touch.force});
+    const ContactFace& on = face(touch.face);
+    for (std::size_t e = 0; e < touch.N.size(); ++e)
+      take({.segment = on.segment,
+            .point = world.nodes.x.vec(on.node[e]),
+            .force = -touch.N[e] * touch.force + touch.lever * touch.tilt[e]});
+  }
+}
+
 void add_node_contact(World& world, const std::shared_ptr<NodeContact>& contact) {
   add_clear_face_forces(world);
   world.passes.add(contact);

@@ -52,7 +52,8 @@ class NodeContact : public Force,
                     public TimeLimit,
                     public EnergyTerm,
                     public Restartable,
-                    public InterfaceReporter {
+                    public InterfaceReporter,
+                    public PointForceReporter {
  public:
   static constexpr int most_touches = 3;
 
@@ -70,6 +71,7 @@ class NodeContact : public Force,
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const override;
   bool has_acted() const override { return acted_; }
+  void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
   void keep(Archive& archive) override;
 
   /// What touches leave for all nodes; complete after `finish`.

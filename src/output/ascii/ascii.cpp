@@ -26,6 +26,41 @@ void HistoryRequests::ask(const std::string& name, OutputSchedule schedule, int 
 
 namespace {
 
+std::string gauge_head(const GaugeLayout& layout) {
+  std::string out = "time";
+  for (const GaugeLayout::Column& column : layout.columns)
+    for (int k = 0; k < column.components; ++k)
+      out += fmt::format(",{}{}", column.name, column.components == 1 ? "" : fmt::format(".{}", "xyz"[k]));
+  return out + "\n";
+}
+
+constexpr std::size_t most_waiting = 4096;  // bytes
+
+const GaugeSample& gauge_of(const Sample& sample, std::size_t number) {
+  for (const GaugeSample& one : sample.gauges)
+    if (one.gauge == number) return one;
+  throw std::out_of_range(fmt::format("no values of gauge {}", number));
+}
+
+std::string gauge_text(const Sample& sample, std::size_t number) {
+  std::string out = fmt::format("{:.9g}", sample.t);
+  for (const Real value : gauge_of(sample, number).values) out += fmt::format(",{:.9g}", value);
+  return out + "\n";
+}
+
+}  // namespace
+
+void HistoryRequests::ask_gauge(std::size_t number, GaugeLayout layout, Real interval) {
+  Request request{.file = {.name = fmt::format("{}/{}.csv", result_names::gauges, layout.name),
+                           .text = [number](const Sample& s, Real) { return gauge_text(s, number); }},
+                  .schedule = OutputSchedule(interval),
+                  .gauge = number,
+                  .layout = std::move(layout)};
+  files.push_back(std::move(request));
+}
+
+namespace {
+
 /// One that an earlier run left and this one does not write would pass for this one's. Others' files are
 /// theirs.
 void remove_ours(const std::filesystem::path& file) {
@@ -56,8 +91,16 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
     const bool text = request.binary != 2 || !has_binout(name);
     if (!request.schedule.is_wanted() || !text) unused.push_back(name);
     if (!request.schedule.is_wanted()) continue;
-    files_.push_back({request.schedule, name, {}, binout && has_binout(name), std::move(request.file.text)});
+    files_.push_back({request.schedule,
+                      name,
+                      {},
+                      binout && has_binout(name),
+                      std::move(request.file.text),
+                      request.gauge,
+                      request.layout,
+                      {}});
     if (!text) continue;
+    if (request.gauge) make_folder(dir / result_names::gauges);
     const bool goes_on = resume && resume->bytes.contains(name);
     TextFile& file = files_.back().file.emplace(dir / name, goes_on);
     if (goes_on) {
@@ -65,7 +108,9 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
       if (file.size() < bytes) lost_.push_back(fmt::format("{} has lost its end before the restart", name));
       file.cut(bytes);
     }
-    if (file.size() == 0)
+    if (file.size() == 0 && request.gauge)
+      file.write(gauge_head(request.layout));
+    else if (file.size() == 0)
       file.write(header + (request.file.head ? request.file.head(requests.titles) : std::string()));
   }
   if (!resume)
@@ -78,11 +123,13 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
         goes_on ? std::optional(static_cast<std::uintmax_t>(resume->binout_bytes)) : std::nullopt);
   }
   choose_h5_times(requests.h5);
-  if (!h5_schedules_.empty()) h5_.emplace(result_path(dir, result_names::history));
+  const auto is_gauge = [](const Ascii& file) { return file.gauge.has_value(); };
+  if (!h5_schedules_.empty() || std::any_of(files_.begin(), files_.end(), is_gauge))
+    h5_.emplace(result_path(dir, result_names::history));
   if (!resume) return;
   set_first_potential(*resume);
   const auto rows = static_cast<std::size_t>(resume->rows);
-  if (h5_ && rows > 0 && h5_->resume(rows) < rows)
+  if (h5_ && (rows > 0 || !resume->gauge_rows.empty()) && h5_->resume(rows, resume->gauge_rows) < rows)
     lost_.push_back("history.h5 has lost samples before the restart");
 }
 
@@ -111,7 +158,7 @@ HistoryPositions Histories::positions() const {
     if (file.file) out.bytes[file.name] = static_cast<std::int64_t>(file.file->size());
   if (binout_)
     out.binout_states = binout_->states(), out.binout_bytes = static_cast<std::int64_t>(binout_->size());
-  if (h5_) out.rows = static_cast<std::int64_t>(h5_->rows());
+  if (h5_) out.rows = static_cast<std::int64_t>(h5_->rows()), out.gauge_rows = h5_->gauge_rows();
   if (first_potential_) out.first_potential = {*first_potential_};
   return out;
 }
@@ -123,6 +170,7 @@ void Histories::choose_h5_times(const OutputSchedule& wanted) {
   }
   Real shortest = 0;
   for (const Ascii& file : files_) {
+    if (file.gauge) continue;
     const Real interval = file.schedule.interval();
     if (interval <= 0)
       h5_schedules_.push_back(file.schedule);
@@ -151,19 +199,48 @@ Histories::Due Histories::take(Real t, Real dt, bool always) {
   return due;
 }
 
+bool Histories::needs_whole_sample(const Due& due) const {
+  if (due.back()) return true;
+  for (std::size_t k = 0; k < files_.size(); ++k)
+    if (due[k] && !files_[k].gauge) return true;
+  return false;
+}
+
+std::vector<std::size_t> Histories::due_gauges(const Due& due) const {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < files_.size(); ++k)
+    if (due[k] && files_[k].gauge) out.push_back(*files_[k].gauge);
+  return out;
+}
+
 void Histories::write(const Sample& sample, const Due& due) {
-  if (!first_potential_) first_potential_ = sample.energy.potential;
+  if (!first_potential_ && needs_whole_sample(due)) first_potential_ = sample.energy.potential;
   for (std::size_t i = 0; i < files_.size(); ++i)
     if (due[i]) write(files_[i], sample);
   if (h5_ && due.back()) h5_->record(sample);
 }
 
 void Histories::write(Ascii& to, const Sample& sample) {
-  if (to.file) to.file->write(to.text(sample, *first_potential_));
-  if (to.in_binout) binout_->write(to.name, sample, *first_potential_);
+  const std::string text = to.file ? to.text(sample, first_potential_.value_or(0)) : std::string();
+  if (to.gauge)
+    write_waiting(to, text, most_waiting);
+  else if (to.file)
+    to.file->write(text);
+  if (to.gauge && h5_) h5_->record_gauge(to.layout, sample.t, gauge_of(sample, *to.gauge).values);
+  if (to.in_binout) binout_->write(to.name, sample, first_potential_.value_or(0));
+}
+
+// Many gauges at short intervals would else spend more time in calls of the system than in their sums.
+void Histories::write_waiting(Ascii& to, const std::string& text, std::size_t most) {
+  to.waiting += text;
+  if (to.waiting.empty() || to.waiting.size() < most) return;
+  to.file->write(to.waiting);
+  to.waiting.clear();
 }
 
 void Histories::finish() {
+  for (Ascii& file : files_)
+    if (file.gauge) write_waiting(file, "", 0);
   if (h5_) h5_->flush();
 }
 

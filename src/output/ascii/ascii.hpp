@@ -24,8 +24,10 @@ std::string ascii_header(const std::string& title, const std::string& date);
 struct HistoryRequests {
   struct Request {
     TextHistory file{};
-    OutputSchedule schedule{};  ///< not wanted: an older file of a run is removed
-    int binary = 1;             ///< BINARY: 2 in binout, 3 in both, else text
+    OutputSchedule schedule{};           ///< not wanted: an older file of a run is removed
+    int binary = 1;                      ///< BINARY: 2 in binout, 3 in both, else text
+    std::optional<std::size_t> gauge{};  ///< number in Sample::gauges; none: of a whole sample
+    GaugeLayout layout{};                ///< of a gauge
   };
   std::vector<Request> files{};
   /// history.h5; where it is not wanted: with the file of the shortest interval, and with those that a curve
@@ -35,18 +37,22 @@ struct HistoryRequests {
   HistoryTitles titles{};
   /// Asks for one of text_histories(). Throws std::out_of_range where there is none of that name.
   void ask(const std::string& name, OutputSchedule schedule, int binary = 1);
+  /// Gauge of a number, from 0: a file of columns, and a group of history.h5 with its own times.
+  void ask_gauge(std::size_t number, GaugeLayout layout, Real interval);
 };
 
 /// How far the files of a run have come: what a restart cuts them back to.
 struct HistoryPositions {
   std::map<std::string, std::int64_t> bytes;            ///< of each text file
   std::int64_t rows = 0;                                ///< of history.h5
+  std::map<std::string, std::int64_t> gauge_rows{};     ///< of each gauge there
   std::vector<Real> first_potential;                    ///< none before the first sample [ML2/T2]
   std::map<std::string, std::int64_t> binout_states{};  ///< of each history in binout
   std::int64_t binout_bytes = 0;
   void keep(Archive& archive) {
     archive("bytes", bytes);
     archive("rows", rows);
+    if (!archive.loading() || archive.has("gauge_rows")) archive("gauge_rows", gauge_rows);
     archive("first_potential", first_potential);
     archive("binout_states", binout_states);
     archive("binout_bytes", binout_bytes);
@@ -77,6 +83,10 @@ class Histories {
   /// The files that are due at the cycle that goes from t to t + dt, with `always` (the end of the run) all
   /// that have no sample of time t yet. From here on they count as written.
   Due take(Real t, Real dt, bool always = false);
+  /// Whether more than gauges are due.
+  bool needs_whole_sample(const Due& due) const;
+  /// Numbers of the gauges that are due.
+  std::vector<std::size_t> due_gauges(const Due& due) const;
   /// Writes the sample to those files. Touches nothing that `is_due` and `take` use: they may go on while
   /// another thread writes. Throws OutputError.
   void write(const Sample& sample, const Due& due);
@@ -94,9 +104,13 @@ class Histories {
     std::optional<TextFile> file;  // none: in binout alone
     bool in_binout = false;
     std::function<std::string(const Sample&, Real)> text;
-    Real last = -1;  // time of the last state
+    std::optional<std::size_t> gauge;
+    GaugeLayout layout;
+    std::string waiting;  // rows of a gauge that are not in its file yet
+    Real last = -1;       // time of the last state
   };
   void write(Ascii& to, const Sample& sample);
+  void write_waiting(Ascii& to, const std::string& text, std::size_t most);
 
   std::filesystem::path dir_;
   std::vector<Ascii> files_;

@@ -29,7 +29,7 @@ class HistoryFile:
     """A history.h5 in memory, whose datasets are unpacked when they are asked for. Row i of every dataset belongs to /global/time[i].
 
     A quantity that was not there at a sample is NaN in all datasets of its group: `sampled` tells those apart from numbers that went
-    wrong. `names`: paths of all datasets, "/contacts/1/force", sorted; `times`: (rows,) [T]. Raises ValueError where it is none.
+    wrong. Datasets of a gauge, "/gauges/NAME/level", have times of their own: `times_of`. `names`: paths of all datasets, "/contacts/1/force", sorted; `times`: (rows,) [T]. Raises ValueError where it is none.
     """
 
     def __init__(self, data: bytes) -> None:
@@ -43,9 +43,9 @@ class HistoryFile:
         h5py.h5o.visit(self._h5.id, note, info=True)  # without opening each
         self.names = sorted(found)
         self._known: dict[str, np.ndarray] = {}
-        if "/global/time" not in self.names:
+        if not any(name == "/global/time" or name.startswith("/gauges/") for name in self.names):
             raise ValueError("it has no times")
-        self.times = self._read("/global/time").ravel()
+        self.times = self._read("/global/time").ravel() if "/global/time" in self.names else np.empty(0)
 
     @classmethod
     def open(cls, file: str | PathLike[str], diagnostics: Diagnostics) -> HistoryFile | None:
@@ -80,13 +80,20 @@ class HistoryFile:
         text = self._h5[path].attrs.get("dimension", b"-") if path in self.names else b"-"
         return text.decode("utf-8", "replace").rstrip("\0") if isinstance(text, bytes) else "-"
 
+    def times_of(self, path: str) -> np.ndarray:
+        """Times of the rows of a dataset or of the datasets of a group, (rows,) [T]."""
+        parts = path.strip("/").split("/")
+        own = "/".join(["", *parts[:2], "time"])
+        return self._read(own).ravel() if parts[0] == "gauges" and own in self.names else self.times
+
     def values(self, path: str) -> np.ndarray | None:
         """All components of a dataset, shape (rows, components); rows before it was there are NaN. None if there is none."""
         if path not in self.names:
             return None
         found = self._read(path)
-        rows = min(len(self.times), len(found))
-        return np.concatenate([found[:rows], np.full((len(self.times) - rows, found.shape[1]), np.nan)])
+        wanted = len(self.times_of(path))
+        rows = min(wanted, len(found))
+        return np.concatenate([found[:rows], np.full((wanted - rows, found.shape[1]), np.nan)])
 
     def column(self, path: str, component: int = 0) -> np.ndarray | None:
         """One component of a dataset, shape (rows,). None if there is none."""
@@ -97,4 +104,4 @@ class HistoryFile:
         """Whether the group of a dataset was sampled, shape (rows,) of bool."""
         group = path[: path.rfind("/") + 1]
         beside = [self.values(name) for name in self.names if name.startswith(group)]
-        return np.any([~np.isnan(one).all(axis=1) for one in beside if one is not None] or [np.zeros(len(self.times), bool)], axis=0)
+        return np.any([~np.isnan(one).all(axis=1) for one in beside if one is not None] or [np.zeros(len(self.times_of(path)), bool)], axis=0)

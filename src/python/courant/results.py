@@ -263,6 +263,10 @@ class Histories(Mapping[str, np.ndarray]):
     def unit(self, path: str) -> str:
         return self._units.of_text(self._file.dimension("/" + path.lstrip("/")))
 
+    def t_of(self, path: str) -> np.ndarray:
+        """Times of the rows of a dataset or group: those of a gauge are its own. (rows,) [T]"""
+        return self._file.times_of(path)
+
     @property
     def groups(self) -> list[str]:
         """ "global", "contacts/1", "parts/2", ..."""
@@ -273,11 +277,11 @@ class Histories(Mapping[str, np.ndarray]):
         paths = [path for path in self if path.rpartition("/")[0] == group]
         if not paths:
             raise KeyError(f"history.h5 has no group '{group}'; it has {', '.join(self.groups)}")
-        columns = [("t", self._units.of(Dimension(T=1)), self.t)]
+        columns = [("t", self._units.of(Dimension(T=1)), self._file.times_of(group))]
         for path in paths:
             name, values = path.rpartition("/")[2], self[path]
             parts = [(name, values)] if values.ndim == 1 else [(f"{name}.{axis}", values[:, a]) for a, axis in enumerate("xyz")]
-            columns += [(part, self.unit(path), one) for part, one in parts if path != "global/time"]
+            columns += [(part, self.unit(path), one) for part, one in parts if name != "time"]
         return table_of(group, columns)
 
     def to_pandas(self, group: str = "global") -> Any:
@@ -412,11 +416,18 @@ class Results:
             raise KeyError("the run has no contacts")
         columns = [(name, some[0].units[name], -sum(one[name] for one in some)) for name in ("force.x", "force.y", "force.z")]
         return table_of("wall force", [("t", some[0].units["t"], some[0]["t"]), *columns])
+    @cached_property
+    def gauges(self) -> dict[str, Table]:
+        """What each gauge measured over its own times, by the gauge's name; empty where a run has no gauges."""
+        names = [group.partition("/")[2] for group in self.histories.groups if group.startswith("gauges/")]
+        return {name: self.histories.table(f"gauges/{name}") for name in names}
 
     def table(self, name: str) -> Table:
-        """ "energies", a group of history.h5 ("contacts/1") or an ASCII history ("glstat")."""
+        """ "energies", a group of history.h5 ("contacts/1"), the name of a gauge, or an ASCII history ("glstat")."""
         if name == "energies":
             return self.energies
+        if name not in ASCII_NAMES and name not in self.histories.groups and f"gauges/{name}" in self.histories.groups:
+            return self.gauges[name]
         return self.ascii[name] if name in ASCII_NAMES else self.histories.table(name)
 
     def plot(

@@ -312,32 +312,56 @@ InterfaceForce WallSupport::report(const World& world) const {
   return out;
 }
 
-void WallSupport::show_forces(World& world) {
-  if (!shown_.empty()) return;
+template <class Take>
+void WallSupport::share_forces(const World& world, const Take& take) {
   if (any_moves_ && !follows()) rebuild(world);
   const Particles& p = world.particles;
-  const auto give = [&](Index segment, const Vec& force) {
-    if (moves_[static_cast<std::size_t>(segment)]) return;  // it has its force already
-    world.segments.contact_force->add(segment, force);
-    for (const Index n : world.segments.nodes(segment)) world.nodes.f.add(n, 0.25 * force);
-    if (shown_.empty() || shown_.back() != segment) shown_.push_back(segment);
-  };
-  std::vector<std::pair<Index, Real>> shares;
+  std::vector<Share> shares;
   for (Index i = 0; i < p.active; ++i) {
     if (!is_near(i)) continue;
-    const Vec force = force_on(p, i);
     Real weight = 0;
     shares.clear();
     for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
       const Real one = away.norm() * kernel(p.h[i], q.x - p.x.vec(i));
       const Index segment = surface_->segment_of(q.face);
+      const Vec normal = kernel(p.h[i], q.x - p.x.vec(i)) * away;
       weight += one;
-      if (shares.empty() || shares.back().first != segment) shares.push_back({segment, 0});
-      shares.back().second += one;
+      if (shares.empty() || shares.back().segment != segment) shares.push_back({segment});
+      shares.back().weight += one, shares.back().away += normal, shares.back().point += one * q.x;
     });
     if (!(weight > 0)) continue;
-    for (const auto& [segment, share] : shares) give(segment, -share / weight * force);
+    // Pressure acts along normals: in a corner each wall has its own direction of it. With K = sum n n^T |a|,
+    // a = |a| n of each wall, K^-1 F are the weights that add up to F. The rest, friction above all, is
+    // shared by weight.
+    constexpr Real least = 1e-3;  // of the trace: walls that are nearly in one plane have no second direction
+    const Vec force = -force_on(p, i);
+    Matrix K = Matrix::Zero();
+    for (const Share& one : shares)
+      if (one.weight > 0) K += one.away * one.away.transpose() / one.weight;
+    const Vec alpha = (K + least * K.trace() * Matrix::Identity()).inverse() * force;
+    const Vec rest = (force - K * alpha) / weight;
+    for (const Share& one : shares)
+      if (one.weight > 0)
+        take(one.segment, Vec(one.point / one.weight),
+             Vec(one.away * one.away.dot(alpha) / one.weight + one.weight * rest));
   }
+}
+
+void WallSupport::show_forces(World& world) {
+  if (!shown_.empty()) return;
+  share_forces(world, [&](Index segment, const Vec&, const Vec& force) {
+    if (moves_[static_cast<std::size_t>(segment)]) return;  // it has its force already
+    world.segments.contact_force->add(segment, force);
+    for (const Index n : world.segments.nodes(segment)) world.nodes.f.add(n, 0.25 * force);
+    if (shown_.empty() || shown_.back() != segment) shown_.push_back(segment);
+  });
+}
+
+void WallSupport::report_point_forces(const World& world,
+                                      const std::function<void(const PointForce&)>& take) {
+  share_forces(world, [&](Index segment, const Vec& point, const Vec& force) {
+    take({.segment = segment, .point = point, .force = force});
+  });
 }
 
 void WallSupport::take_back_forces(World& world) {

@@ -35,7 +35,8 @@ class WallSupport : public Rate,
                     public Refresh,
                     public EnergyTerm,
                     public Restartable,
-                    public WallForceReporter {
+                    public WallForceReporter,
+                    public PointForceReporter {
  public:
   WallSupport(const SphSettings& s, World& world, const Neighbours& neighbours);
   std::string name() const override { return "wall support"; }
@@ -85,6 +86,7 @@ class WallSupport : public Rate,
   InterfaceForce report(const World& world) const override;
   /// Shares the force on a particle among the shells that it sees and that do not move.
   void show_forces(World& world) override;
+  void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
   void take_back_forces(World& world);
 
  private:
@@ -95,6 +97,15 @@ class WallSupport : public Rate,
     Matrix moment = Matrix::Zero(), gradient = Matrix::Zero();
   };
   void rebuild(const World& world);
+  struct Share {
+    Index segment = -1;
+    Real weight = 0;          ///< of the force on a particle, not normed
+    Vec away = Vec::Zero();   ///< the same as a vector, along the normal of the segment
+    Vec point = Vec::Zero();  ///< weighted sum of the pieces' positions, not normed [L]
+  };
+  /// Calls `take(segment, point, force)` with what particles that are near walls do to the segments they see.
+  template <class Take>
+  void share_forces(const World& world, const Take& take);
   void look_for_rooms(const Particles& p);
   bool are_alike(Index face, Index other) const;
   /// Whether walls are looked at in every step: they move, and something is summed over their pieces.

@@ -211,8 +211,8 @@ class FiguresData:
         x, y = self._values(curve, table, "x"), self._values(curve, table, "y")
         each = table.find(curve.each) if curve.each else None
         if curve.each and each is None:
-            words = ", ".join(column.name for column in table.columns if _is_word(column.name))
-            self.diagnostics.error(curve.where, f"the table '{table.name}' has no column '{curve.each}'", f"it has {words}")
+            names = ", ".join(column.name for column in table.columns)
+            self.diagnostics.error(curve.where, f"the table '{table.name}' has no column '{curve.each}'", f"it has {names}")
             return []
         if x is None or y is None:
             return []
@@ -236,7 +236,11 @@ class FiguresData:
         of = Formula(text, tuple(columns))
         if of.ok:
             return of.over(columns, table.rows)
-        self.diagnostics.error(curve.where, f"'{key}' of a curve from '{table.name}': {of.error}", f"the table has {', '.join(columns)}")
+        hint = f"the table has {', '.join(one.name for one in table.columns)}"
+        if len(columns) < len(table.columns):
+            alone = next(one.name for one in table.columns if not _is_word(one.name))
+            hint += f"; a name like {alone} must be all of '{key}', not a term of an expression"
+        self.diagnostics.error(curve.where, f"'{key}' of a curve from '{table.name}': {of.error}", hint)
         return None
 
     def _map(self, one: Map) -> dict[str, Any] | None:

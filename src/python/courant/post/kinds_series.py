@@ -58,7 +58,13 @@ class _SeriesAnalysis(Analysis):
 
     def take_h5(self, run: Run) -> None:
         file = HistoryFile.open(run.folder / "history.h5", run.diagnostics)
-        if file is None or not self.begin_table(file.times, run):
+        if file is None:
+            return
+        times = file.times_of(self.sources[0].path)
+        apart = next((one for one in self.sources if not np.array_equal(file.times_of(one.path), times)), None)
+        if apart is not None and apart.path in file.names:
+            return self.fault(run, f"'{apart.path}' and '{self.sources[0].path}' have different times", "a gauge has its own: one analysis for each interval")
+        if not self.begin_table(times, run):
             return
         for source in self.sources:
             values = file.column(source.path, source.component)

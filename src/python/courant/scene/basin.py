@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from .explain import explain_basin
 from .model import Model, Part, PlaceExpression, Plate, Variables, Vector
 from .numbers import number_text
@@ -125,7 +127,7 @@ class Basin:
     output: float = 0.0  # interval of field states [T]
     box: tuple[Vector, Vector] | None = None  # corners [L]
     open: set[str] = field(default_factory=set)  # sides without a wall
-    box_motion: dict[str, str] = field(default_factory=dict)  # displacements of the box by axis, formulas of TIME [L]
+    box_motion: dict[str, str | np.ndarray] = field(default_factory=dict)  # displacements of the box by axis, formulas of TIME [L]
     fills: list[tuple[Any, Any]] = field(default_factory=list)  # shapes that are filled with water, and their entries
     solids: list[Solid] = field(default_factory=list)
     method: str = "contact"  # how walls act on the water: by contact, as mirrors, or mixed: box and bodies as mirrors, other walls by contact

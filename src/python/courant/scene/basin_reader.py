@@ -11,6 +11,7 @@ from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
+from .wave_reader import check_reach, read_waves
 
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "wall_method", "gravity", "end", "output")
@@ -105,17 +106,24 @@ class BasinReader(ShapeReader):
             if name not in basin.sides:
                 self.error(side, f"open: '{name}' is no side of the box", f"its sides: {', '.join(basin.sides)}")
             basin.open.add(name)
-        basin.box_motion = self.read_motion(node)
+        basin.box_motion = self.read_motion(node, basin)
 
-    def read_motion(self, node: Node) -> dict[str, str]:
-        """Displacements along axes as formulas of TIME [L]."""
+    def read_motion(self, node: Node, basin: Basin) -> dict[str, str | np.ndarray]:
+        """Displacements along axes [L]: formulas of TIME, or of waves numbers over time."""
         entry = self.get(node, "motion")
         if entry is None or not self.is_map(entry, "motion: {x: 0.05 * sin(2 * PI * TIME / 1.2)}", "motion"):
             return {}
         axes = ("x", "y", "z")[: self.dim or 3]
-        self.check_keys(entry, "motion", axes)
-        out = {}
+        self.check_keys(entry, "motion", (*axes, "waves"))
+        out: dict[str, str | np.ndarray] = {}
         for key, value in entry.value:
+            if key.value == "waves":
+                made = read_waves(self, value, basin.gravity, basin.end)
+                if made is not None and made[0] in out:
+                    self.error(value, f"motion: the waves and a formula both move the wall along {made[0]}")
+                elif made is not None:
+                    out[made[0]] = made[1]
+                continue
             if not is_scalar(value):
                 self.error(value, "motion: expected a formula of TIME")
                 continue
@@ -137,7 +145,11 @@ class BasinReader(ShapeReader):
                 self.add_entities(entry, len(shape.faces))
                 solid = Solid(shape, closed=self._is_closed(shape), where=self.at(entry))
                 if key == "walls":
-                    solid.motion = self.read_motion(entry)
+                    solid.motion = self.read_motion(entry, basin)
+                    for axis, series in solid.motion.items():
+                        if basin.box and not isinstance(series, str):
+                            at = "xyz".index(axis)
+                            check_reach(self, entry, axis, series, shape.points, basin.box[0][at], basin.box[1][at])
                 else:
                     self.read_body(entry, solid)
                 basin.solids.append(solid)

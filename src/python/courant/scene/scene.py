@@ -143,6 +143,16 @@ class Scene:
         self._append(("bodies",), self._shape(shape, keys), _caller())
         return self
 
+    def gauge(self, name: str, *, point: Point | None = None, level: Sequence[Point] | None = None, runup: Sequence[Point] | None = None,
+              flux: Sequence[Point] | None = None, force: int | str | None = None, interval: Number | None = None, body: int | str | None = None,
+              about: Point | None = None) -> Scene:
+        """Measures, under a name, one of: pressure, velocity and density at a `point` (which moves with a `body`); the `level` of the surface, or the
+        `runup` of the water, on a line of two points; the `flux` through two points in the plane, three corners in space; the `force` on a part, and its
+        moment `about` a point. `body` and `force`: number or title of a part. `interval` [T]: a tenth of that of states, if not given."""
+        given = {"point": point, "level": level, "runup": runup, "flux": flux, "force": force, "interval": interval, "with": body, "about": about}
+        self._append(("gauges",), {"name": name, **{key: value for key, value in given.items() if value is not None}}, _caller())
+        return self
+
     def keywords(self, text: str) -> Scene:
         """Cards beside those of the scene; of control cards that stand twice the last counts. ${EXPRESSION:10} is filled in."""
         self._append(("keywords",), text if text.endswith("\n") else text + "\n", _caller())

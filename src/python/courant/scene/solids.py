@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..diagnostics import Location
 from .model import Part, Vector
 from .placeholders import substitute
@@ -25,7 +27,7 @@ class Solid:
 
     shape: Shape
     closed: bool = True
-    motion: dict[str, str] = field(default_factory=dict)  # displacements by axis, formulas of TIME [L]
+    motion: dict[str, str | np.ndarray] = field(default_factory=dict)  # displacements by axis, formulas of TIME, or (n, 2) time and displacement [L]
     free: bool = False  # moves by the forces on it
     density: float = 0.0  # of a free one [M/L3]
     velocity: Vector | None = None  # of a free one, at the start [L/T]
@@ -52,6 +54,16 @@ _MOTION = """\
 *BOUNDARY_PRESCRIBED_MOTION_RIGID
 $#     pid       dof       vad      lcid        sf
 ${pid:10}${dof:10}         2${lcid:10}       1.0
+"""
+
+_SERIES = """\
+*DEFINE_CURVE
+$#    lcid
+${lcid:10}
+$#                t                   x
+"""
+
+_FORMULA = """\
 *DEFINE_CURVE_FUNCTION
 $#    lcid
 ${lcid:10}
@@ -151,10 +163,14 @@ def material(basin: Basin, part: int, held: set[str], density: float = 0.0) -> s
     return substitute(_RIGID, variables)
 
 
-def motion_cards(part: int, motion: dict[str, str], first_curve: int) -> str:
+def motion_cards(part: int, motion: dict[str, str | np.ndarray], first_curve: int) -> str:
     out = ""
-    for k, (axis, formula) in enumerate(motion.items()):
-        out += substitute(_MOTION, {"pid": float(part), "dof": float("xyz".index(axis) + 1), "lcid": float(first_curve + k)}) + formula + "\n"
+    for k, (axis, given) in enumerate(motion.items()):
+        out += substitute(_MOTION, {"pid": float(part), "dof": float("xyz".index(axis) + 1), "lcid": float(first_curve + k)})
+        if isinstance(given, str):
+            out += substitute(_FORMULA, {"lcid": float(first_curve + k)}) + given + "\n"
+        else:
+            out += substitute(_SERIES, {"lcid": float(first_curve + k)}) + "".join(f"{t:20.9e}{x:20.9e}\n" for t, x in given)
     return out
 
 

@@ -1,0 +1,99 @@
+#pragma once
+// Gauges: quantities that a run measures at positions of the deck, each at an interval of its own.
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "loads/body_acceleration.hpp"
+#include "output/sample.hpp"
+#include "sph/kernel/kernel_choice.hpp"
+#include "state/reports.hpp"
+
+namespace courant {
+
+struct GaugeBox {
+  Vec low = Vec::Zero(), high = Vec::Zero();
+};
+
+/// What a gauge sees of the world at t^n.
+struct GaugeView {
+  const World& world;
+  KernelChoice kernel;
+  const std::vector<RigidBodyMotion>& bodies;
+  std::span<const PointForce> forces{};  ///< where a gauge takes them
+  BodyAcceleration::At loads{};
+  /// Kernel of particle i at a distance r. [1/L^dim]
+  Real weight(Index i, Real r) const;
+  Real reach(Index i) const { return kernel_support(kernel) * world.particles.h[i]; }
+  Real volume(Index i) const { return world.particles.m[i] / world.particles.rho[i]; }
+  /// Distance between particles of the size of particle i. [L]
+  Real spacing(Index i) const;
+  /// Position of particle i; in the plane without z.
+  Vec position(Index i) const { return flat(world.particles.x.vec(i)); }
+  Vec flat(const Vec& x) const { return world.dim == 2 ? Vec(x.x(), x.y(), 0) : x; }
+};
+
+class Gauge {
+ public:
+  Gauge(GaugeLayout layout, Real interval) : layout_(std::move(layout)), interval_(interval) {}
+  virtual ~Gauge() = default;
+  const GaugeLayout& layout() const { return layout_; }
+  Real interval() const { return interval_; }
+  /// Appends boxes that hold all that the gauge measures; particles within a kernel's reach of them are near
+  /// it. None: it asks for no particles.
+  virtual void cover(const GaugeView& view, std::vector<GaugeBox>& boxes) const = 0;
+  virtual bool takes_forces() const { return false; }
+  /// Values in the order of the columns of `layout`. `near`: particles near it, ascending.
+  virtual std::vector<Real> measure(const GaugeView& view, std::span<const Index> near) const = 0;
+
+ private:
+  GaugeLayout layout_;
+  Real interval_;
+};
+
+/// Particles near each of the gauges, ascending.
+std::vector<std::vector<Index>> particles_near(const GaugeView& view,
+                                               const std::vector<std::vector<GaugeBox>>& boxes);
+
+/// A straight line from `begin` to `end` [L].
+struct GaugeLine {
+  Vec begin = Vec::Zero(), end = Vec::Zero();
+  Real length() const { return (end - begin).norm(); }
+  Vec direction() const { return (end - begin) / length(); }
+  Vec at(Real s) const { return begin + s * direction(); }
+  /// Boxes of pieces of the line, of about the length `piece`.
+  void cover(Real piece, std::vector<GaugeBox>& boxes) const;
+};
+
+std::unique_ptr<Gauge> make_level_gauge(GaugeLayout layout, Real interval, const GaugeLine& line);
+std::unique_ptr<Gauge> make_runup_gauge(GaugeLayout layout, Real interval, const GaugeLine& line);
+/// `body`: index into the bodies with which the point moves; -1: none.
+std::unique_ptr<Gauge> make_point_gauge(GaugeLayout layout, Real interval, const Vec& point, int body,
+                                        const RigidBodyMotion& start);
+/// In the plane `third` does not count.
+std::unique_ptr<Gauge> make_flux_gauge(GaugeLayout layout, Real interval, int dim, const Vec& first,
+                                       const Vec& second, const Vec& third);
+/// `faces`: of each segment, whether it counts.
+std::unique_ptr<Gauge> make_force_gauge(GaugeLayout layout, Real interval, std::vector<char> faces,
+                                        const Vec& centre, const World& world);
+
+/// All gauges of a deck. A pass of no phase: the run asks it when one of them is due.
+class Gauges : public Pass {
+ public:
+  Gauges(std::vector<std::unique_ptr<Gauge>> gauges, KernelChoice kernel, BodyAcceleration loads)
+      : gauges_(std::move(gauges)), kernel_(kernel), loads_(std::move(loads)) {}
+  std::string name() const override { return "gauges"; }
+  const std::vector<std::unique_ptr<Gauge>>& all() const { return gauges_; }
+  /// Those of the given indices, at t^n.
+  std::vector<GaugeSample> measure(World& world, const Clock& clock,
+                                   const std::vector<RigidBodyMotion>& bodies,
+                                   const std::vector<std::size_t>& which) const;
+
+ private:
+  std::vector<std::unique_ptr<Gauge>> gauges_;
+  KernelChoice kernel_;
+  BodyAcceleration loads_;
+};
+
+}  // namespace courant

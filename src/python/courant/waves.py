@@ -1,0 +1,210 @@
+"""Waves of a piston: the displacement that makes them, by linear theory and beyond, as numbers over time.
+
+made = Waves("regular", depth=0.5, height=0.08, period=1.4)
+made.displacement(end=20)    # (n, 2): time, displacement of the piston towards the water
+made.elevation(x=3, t=...)   # what theory expects there, by linear theory
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+KINDS = ("regular", "second_order", "focused", "jonswap", "pierson_moskowitz", "solitary", "elevation")
+_STEPS = 80  # of the displacement, in a period
+_RAMP = 2.0  # periods over which waves grow
+
+
+class WaveFault(ValueError):
+    """Waves that cannot be made; the text says why."""
+
+
+class Components(NamedTuple):
+    """Waves that add up: amplitudes [L], angular frequencies [1/T], phases [-], all (n,)."""
+
+    amplitude: np.ndarray
+    omega: np.ndarray
+    phase: np.ndarray
+
+
+def wave_number(omega: np.ndarray | float, depth: float, g: float = 9.81) -> np.ndarray:
+    """k of the dispersion relation omega^2 = g k tanh(k d), by Newton's method. [1/L]"""
+    omega = np.asarray(omega, dtype=float)
+    a = omega**2 * depth / g
+    kd = np.where(a > 1, a, np.sqrt(a))  # the limits of deep and of shallow water
+    for _ in range(50):
+        t = np.tanh(kd)
+        kd = kd - (kd * t - a) / np.maximum(t + kd * (1 - t * t), 1e-300)
+    return kd / depth
+
+
+def piston_transfer(kd: np.ndarray | float) -> np.ndarray:
+    """Height of the wave over the stroke of a piston. Source: Biesel and Suquet, La Houille Blanche 6 (1951); Dean and Dalrymple (1991), eq. 6.25."""
+    kd = np.asarray(kd, dtype=float)
+    grows = np.minimum(2 * kd, 300.0)  # 2 beyond, without an overflow
+    return 2 * (np.cosh(grows) - 1) / (np.sinh(grows) + 2 * kd)
+
+
+def flap_transfer(kd: np.ndarray | float) -> np.ndarray:
+    """Height of the wave over the stroke at the surface of a flap that is hinged at the bed. Source: Dean and Dalrymple (1991), eq. 6.26."""
+    kd = np.asarray(kd, dtype=float)
+    grows = np.minimum(kd, 300.0)
+    return 4 * np.sinh(grows) * (grows * np.sinh(grows) - np.cosh(grows) + 1) / (grows * (np.sinh(2 * grows) + 2 * grows))
+
+
+def breaking_height(wave: float, depth: float) -> float:
+    """The highest wave of a wave number: 0.142 L tanh(k d). Source: Miche, Annales des Ponts et Chaussees 114 (1944). [L]"""
+    return 0.142 * 2 * math.pi / wave * math.tanh(wave * depth)
+
+
+def jonswap(f: np.ndarray, height: float, period: float, gamma: float) -> np.ndarray:
+    """Density of the elevation over the frequency, scaled to H_m0 = height; gamma 1: Pierson and Moskowitz. [L2 T]
+
+    Source: Goda, Random Seas and Design of Maritime Structures (2000), section 2.3.
+    """
+    peak = 1 / period
+    width = np.where(f <= peak, 0.07, 0.09)
+    shape = f**-5.0 * np.exp(-1.25 * (peak / f) ** 4) * gamma ** np.exp(-((f / peak - 1) ** 2) / (2 * width**2))
+    return shape * height**2 / 16 / float(np.sum(0.5 * np.diff(f) * (shape[1:] + shape[:-1])))
+
+
+@dataclass
+class Waves:
+    """`kind`: of KINDS. `depth` of the water at the piston, `height` (of irregular and focused waves H_m0, and the height of the crest at the focus) [L];
+    `period` (of the peak) [T]; `seed` and `gamma` of irregular ones; `focus`: distance from the piston and time; `record`: (n, 2) time and elevation at the
+    piston. `ramp`: periods over which waves grow from nothing."""
+
+    kind: str
+    depth: float
+    height: float = 0.0
+    period: float = 0.0
+    g: float = 9.81
+    seed: int = 1
+    gamma: float = 3.3
+    focus: tuple[float, float] = (0.0, 0.0)
+    components: int = 200
+    ramp: float = _RAMP
+    record: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise WaveFault(f"no kind of waves '{self.kind}': {', '.join(KINDS)}")
+        if not self.depth > 0:
+            raise WaveFault(f"the depth of the water is {self.depth:g}: it must be above 0")
+        if self.kind == "elevation":
+            if self.record.ndim != 2 or self.record.shape[1] != 2 or len(self.record) < 8 or not (np.diff(self.record[:, 0]) > 0).all():
+                raise WaveFault("a record has eight rows or more of time and elevation, with times that go upwards")
+            return
+        if not self.height > 0:
+            raise WaveFault(f"the height of the waves is {self.height:g}: it must be above 0")
+        if self.kind == "solitary":
+            if self.height > 0.78 * self.depth:
+                raise WaveFault(f"a solitary wave of {self.height:g} in a depth of {self.depth:g} breaks: at most 0.78 of the depth")
+            return
+        if not self.period > 0:
+            raise WaveFault(f"the period of the waves is {self.period:g}: it must be above 0")
+        highest = breaking_height(self.wave, self.depth)
+        if self.height > highest:
+            raise WaveFault(f"waves of height {self.height:g} and period {self.period:g} break in a depth of {self.depth:g}: at most {highest:.3g}")
+
+    @property
+    def omega(self) -> float:
+        return 2 * math.pi / self.period
+
+    @property
+    def wave(self) -> float:
+        """Wave number of the period [1/L]."""
+        return float(wave_number(self.omega, self.depth, self.g))
+
+    def spectrum(self) -> Components:
+        """The components that add up to the waves, at the piston."""
+        if self.kind in ("regular", "second_order"):
+            return Components(np.array([self.height / 2]), np.array([self.omega]), np.array([0.0]))
+        if self.kind == "elevation":
+            return self._of_record()
+        f = np.linspace(0.5, 4, self.components + 1) / self.period
+        random = np.random.default_rng(self.seed)
+        # bands of equal width would repeat after 1/df: each has its frequency somewhere within
+        at = f[:-1] + np.diff(f) * (random.random(self.components) if self.kind != "focused" else 0.5)
+        density = jonswap(at, self.height, self.period, 1.0 if self.kind == "pierson_moskowitz" else self.gamma)
+        amplitude = np.sqrt(2 * density * np.diff(f))
+        amplitude *= self.height / 4 / math.sqrt(0.5 * float((amplitude**2).sum()))
+        omega = 2 * math.pi * at
+        if self.kind != "focused":
+            return Components(amplitude, omega, 2 * math.pi * random.random(self.components))
+        amplitude *= self.height / amplitude.sum()
+        x, t = self.focus
+        return Components(amplitude, omega, omega * t - wave_number(omega, self.depth, self.g) * x)
+
+    def _of_record(self) -> Components:
+        """Harmonics of the record, which repeats after its end. The mean is left out: a piston cannot raise it."""
+        t = np.linspace(self.record[0, 0], self.record[-1, 0], len(self.record), endpoint=False)
+        parts = np.fft.rfft(np.interp(t, self.record[:, 0], self.record[:, 1]))[1:] * 2 / len(t)
+        if len(t) % 2 == 0:
+            parts = parts[:-1]
+        omega = 2 * math.pi / (self.record[-1, 0] - self.record[0, 0]) * np.arange(1, len(parts) + 1)
+        kept = np.abs(parts) > 1e-4 * np.abs(parts).max()
+        return Components(np.abs(parts)[kept], omega[kept], (-np.angle(parts) + omega * self.record[0, 0])[kept])
+
+    def elevation(self, x: float, t: np.ndarray) -> np.ndarray:
+        """Elevation at a distance from the piston by linear theory, without the growth at the start; of a solitary wave Boussinesq's. (n,) [L]"""
+        t = np.asarray(t, dtype=float)
+        if self.kind == "solitary":
+            kappa, c = self._solitary()
+            return self.height / np.cosh(kappa * (x - c * (t - self._start()))) ** 2
+        of = self.spectrum()
+        k = wave_number(of.omega, self.depth, self.g)
+        phase = of.omega[None] * t[:, None] - k[None] * x - of.phase[None]
+        return (of.amplitude * np.cos(phase)).sum(axis=1)
+
+    def displacement(self, end: float) -> np.ndarray:
+        """Time and displacement of the piston from its position at t = 0, towards the water, to `end`; (n, 2) [T], [L]."""
+        if not end > 0:
+            raise WaveFault(f"the end is {end:g}: it must be above 0")
+        if self.kind == "solitary":
+            return self._push(end)
+        of = self.spectrum()
+        period = 2 * math.pi / float(of.omega.max())
+        longest = self.period or float(self.record[-1, 0] - self.record[0, 0]) / 10
+        t = np.linspace(0, end, max(2, math.ceil(_STEPS * end / min(period, longest)) + 1))
+        k = wave_number(of.omega, self.depth, self.g)
+        half_stroke = of.amplitude / piston_transfer(k * self.depth)
+        x = np.zeros_like(t)
+        for s, omega, phase in zip(half_stroke, of.omega, of.phase):
+            # the elevation at a piston goes with its velocity
+            x += s * np.sin(omega * t - phase)
+        if self.kind == "second_order":
+            x += self._second_order() * np.sin(2 * self.omega * t)
+        if self.ramp > 0:
+            x *= 0.5 - 0.5 * np.cos(math.pi * np.clip(t / (self.ramp * longest), 0, 1))
+        return np.column_stack([t, x - x[0]])
+
+    def _second_order(self) -> float:
+        """Amplitude of the harmonic that suppresses the free second harmonic. Source: Madsen, J. Geophys. Res. 76 (1971), eq. 27. [L]"""
+        kd = self.wave * self.depth
+        m = float(piston_transfer(kd))
+        ursell = self.height * (2 * math.pi / self.wave) ** 2 / self.depth**3
+        if ursell > 8 * math.pi**2 / 3:
+            raise WaveFault(f"H L^2/d^3 is {ursell:.3g}: second order holds up to {8 * math.pi**2 / 3:.3g}; make the waves lower or shorter")
+        return self.height**2 / (32 * self.depth) * (3 * math.cosh(kd) / math.sinh(kd) ** 3 - 2 / m)
+
+    def _solitary(self) -> tuple[float, float]:
+        return math.sqrt(0.75 * self.height / self.depth**3), math.sqrt(self.g * (self.depth + self.height))
+
+    def _start(self) -> float:
+        """When the crest is at the piston: before, its height there is under a thousandth. [T]"""
+        kappa, c = self._solitary()
+        return (3.8 + self.height / self.depth) / (kappa * c)
+
+    def _push(self, end: float) -> np.ndarray:
+        """Source: Goring, Tsunamis - the propagation of long waves onto a shelf, Caltech (1978), eq. 3.24."""
+        kappa, c = self._solitary()
+        t = np.linspace(0, end, max(200, math.ceil(200 * end / (2 * self._start())) + 1))
+        x = np.zeros_like(t)
+        reach = self.height / (kappa * self.depth)
+        for _ in range(100):
+            tanh = np.tanh(kappa * (c * (t - self._start()) - x))
+            x = x - (x - reach * tanh) / (1 + reach * kappa * (1 - tanh**2))
+        return np.column_stack([t, x - x[0]])
