@@ -416,6 +416,7 @@ class Results:
             raise KeyError("the run has no contacts")
         columns = [(name, some[0].units[name], -sum(one[name] for one in some)) for name in ("force.x", "force.y", "force.z")]
         return table_of("wall force", [("t", some[0].units["t"], some[0]["t"]), *columns])
+
     @cached_property
     def gauges(self) -> dict[str, Table]:
         """What each gauge measured over its own times, by the gauge's name; empty where a run has no gauges."""
