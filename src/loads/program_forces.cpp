@@ -87,7 +87,7 @@ class ChangedPoints : public PointChanges, public Force, public EnergyTerm {
   Field<Real>& force_;         ///< that acts in this step
   bool any_ = false;           ///< of the forces is in this step's sum
   bool set_ = false;           ///< by the program so far
-  Real work_ = 0, moved_ = 0;  ///< by changes of velocities since the ledger was last told [ML2/T2]
+  Real work_ = 0, moved_ = 0;  ///< by changes of velocities since the last entry of the ledger [ML2/T2]
 };
 
 std::shared_ptr<PointChanges> changes_of(World& world, Points points) {
