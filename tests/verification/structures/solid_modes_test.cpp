@@ -14,13 +14,14 @@ using test::SolidDeck;
 
 namespace {
 
-constexpr Real length = 40, depth = 4;
+constexpr Real beam_length = 40, beam_depth = 4;
 
-/// A cantilever of n elements over its depth, under its weight across or along it ("Z", "X") from the start on.
+/// A cantilever of n elements over its depth, under its weight across or along it ("Z", "X") from the
+/// start on.
 std::string cantilever(int n, const std::string& control, const char* axis, const std::string& law,
                        int elform = 1) {
   SolidDeck deck;
-  deck.block(Vec(length, 2, depth), 10 * n, n > 1 ? n / 2 : 1, n, 1);
+  deck.block(Vec(beam_length, 2, beam_depth), 10 * n, n > 1 ? n / 2 : 1, n, 1);
   deck.node_set(1, [](const Vec& x) { return x[0] < 1e-9; });
   deck.cards += fmt::format(
       "*PART\nbeam\n1,1,1\n*SECTION_SOLID\n1,{}\n{}*BOUNDARY_SPC_SET\n1,0,1,1,1\n"
@@ -28,7 +29,7 @@ std::string cantilever(int n, const std::string& control, const char* axis, cons
       elform, law, axis, control);
   return deck.text(100);
 }
-const std::string steel = "*MAT_ELASTIC\n1,7.85e-6,210.0,0.0\n";
+const std::string beam_steel = "*MAT_ELASTIC\n1,7.85e-6,210.0,0.0\n";
 
 /// The measure, by some looks over two swings.
 Real unresisted(const std::string& deck) {
@@ -46,21 +47,21 @@ Real unresisted(const std::string& deck) {
 
 // The bending of n layers, each by a linear field of its own, is 1/n^2 of that of the beam.
 TEST(SolidModes, ABeamMissesTheBendingOfItsElements) {
-  EXPECT_GT(unresisted(cantilever(1, "", "Z", steel)), 1);
-  EXPECT_NEAR(unresisted(cantilever(2, "", "Z", steel)), 1.0 / 3, 0.01);
-  EXPECT_NEAR(unresisted(cantilever(4, "", "Z", steel)), 1.0 / 15, 0.005);
+  EXPECT_GT(unresisted(cantilever(1, "", "Z", beam_steel)), 1);
+  EXPECT_NEAR(unresisted(cantilever(2, "", "Z", beam_steel)), 1.0 / 3, 0.01);
+  EXPECT_NEAR(unresisted(cantilever(4, "", "Z", beam_steel)), 1.0 / 15, 0.005);
 }
 
 // What is held as the material holds it is not missing; along the beam nothing bends.
 TEST(SolidModes, NothingIsMissingOfWhatIsHeldOrDoesNotBend) {
-  EXPECT_LT(unresisted(cantilever(2, "*CONTROL_HOURGLASS\n6,1.0\n", "Z", steel)), 0.01);
-  EXPECT_LT(unresisted(cantilever(2, "", "X", steel)), 0.01);
-  EXPECT_EQ(unresisted(cantilever(2, "", "Z", steel, 2)), -1) << "not examined";
+  EXPECT_LT(unresisted(cantilever(2, "*CONTROL_HOURGLASS\n6,1.0\n", "Z", beam_steel)), 0.01);
+  EXPECT_LT(unresisted(cantilever(2, "", "X", beam_steel)), 0.01);
+  EXPECT_EQ(unresisted(cantilever(2, "", "Z", beam_steel, 2)), -1) << "not examined";
 }
 
 // A tenth of the stiffness of the material holds a tenth.
 TEST(SolidModes, ASmallerCoefficientHoldsLess) {
-  EXPECT_GT(unresisted(cantilever(2, "*CONTROL_HOURGLASS\n6,0.1\n", "Z", steel)), 0.15);
+  EXPECT_GT(unresisted(cantilever(2, "*CONTROL_HOURGLASS\n6,0.1\n", "Z", beam_steel)), 0.15);
 }
 
 // Sections that flow all over are not examined.
@@ -70,5 +71,5 @@ TEST(SolidModes, WhatYieldedIsNotExamined) {
 }
 
 TEST(SolidModes, TheMeasureIsTheSameOnAnyNumberOfThreadsAndAfterARestart) {
-  test::expect_same_bits(cantilever(2, "", "Z", steel), 400, 200);
+  test::expect_same_bits(cantilever(2, "", "Z", beam_steel), 400, 200);
 }
