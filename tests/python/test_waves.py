@@ -61,6 +61,22 @@ def test_solitary_stroke_of_goring() -> None:
     assert volume == pytest.approx(0.4 * x[-1], rel=0.01) and eta.max() == pytest.approx(0.12, rel=1e-3)
 
 
+def test_the_crest_leaves_the_piston_where_the_piston_is() -> None:
+    waves = Waves("solitary", depth=0.4, height=0.12)
+    t, x = waves.displacement(15).T
+    reach = 0.12 / (math.sqrt(0.75 * 0.12 / 0.4**3) * 0.4)
+    # the piston is fastest, and half of its stroke ahead, when the crest is at its face
+    at = int(np.argmax(np.gradient(x, t)))
+    assert x[at] == pytest.approx(reach, abs=0.01) and x[at] == pytest.approx(x[-1] / 2, abs=0.01)
+    eta = waves.elevation(float(x[at]), t)
+    assert t[np.argmax(eta)] == pytest.approx(t[at], abs=0.03)
+    # the water at the piston moves with it: u = c eta / (depth + eta) at its face
+    c = math.sqrt(9.81 * 0.52)
+    for k in range(20, len(t) - 20, 20):
+        face = float(waves.elevation(float(x[k]), t[k : k + 1])[0])
+        assert (x[k + 1] - x[k - 1]) / (t[k + 1] - t[k - 1]) == pytest.approx(c * face / (0.4 + face), abs=3e-3)
+
+
 @pytest.mark.parametrize("kind", ["jonswap", "pierson_moskowitz"])
 def test_spectra(kind: str) -> None:
     waves = Waves(kind, depth=1.0, height=0.1, period=1.6, seed=5)
@@ -107,6 +123,18 @@ def test_a_recorded_elevation_comes_back() -> None:
         ({"kind": "regular", "depth": 0.5, "height": 0.0, "period": 1.0}, "the height of the waves is 0"),
         ({"kind": "tsunami", "depth": 0.5, "height": 0.1, "period": 1.0}, "no kind of waves 'tsunami'"),
         ({"kind": "elevation", "depth": 0.5}, "eight rows or more"),
+        ({"kind": "elevation", "depth": 0.5, "record": np.column_stack([np.arange(9.0), np.ones(9)])}, "it has no waves"),
+        ({"kind": "elevation", "depth": 0.5, "record": np.column_stack([np.arange(9.0), np.full(9, np.nan)])}, "eight rows or more"),
+        ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": math.inf}, "the period of the waves is inf"),
+        ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": math.nan}, "the period of the waves is nan"),
+        ({"kind": "regular", "depth": math.inf, "height": 0.1, "period": 1.0}, "the depth of the water is inf"),
+        ({"kind": "solitary", "depth": 0.5, "height": math.nan}, "the height of the waves is nan"),
+        ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": 1.4, "g": 0.0}, "gravity is 0"),
+        ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": 1.4, "ramp": -1.0}, "the ramp is -1"),
+        ({"kind": "focused", "depth": 0.5, "height": 0.1, "period": 1.4}, "focused waves need 'focus'"),
+        ({"kind": "jonswap", "depth": 0.5, "height": 0.1, "period": 1.4, "components": 1}, "components is 1"),
+        ({"kind": "jonswap", "depth": 0.5, "height": 0.1, "period": 1.4, "seed": 1.5}, "seed is 1.5"),
+        ({"kind": "jonswap", "depth": 0.5, "height": 0.1, "period": 1.4, "gamma": math.inf}, "gamma is inf"),
     ],
 )
 def test_waves_that_cannot_be(keys: dict, message: str) -> None:

@@ -15,10 +15,18 @@ import numpy as np
 KINDS = ("regular", "second_order", "focused", "jonswap", "pierson_moskowitz", "solitary", "elevation")
 _STEPS = 80  # of the displacement, in a period
 _RAMP = 2.0  # periods over which waves grow
+_MOST_ROWS = 1_000_000  # of a displacement: a typing error in a period does not fill the memory
+_SHALLOWEST = 1e-3  # least wave number times depth: a piston would go a thousand heights of the wave
+GAMMA = (1.0, 20.0)  # smallest and largest; measured spectra have 1 to 7
+COMPONENTS = (2, 10000)  # fewest and most; one component has no spectrum
 
 
 class WaveFault(ValueError):
-    """Waves that cannot be made; the text says why."""
+    """Waves that cannot be made; the text says why. `key`: the value at fault, where it is one; `hint`: what to do."""
+
+    def __init__(self, message: str, key: str = "", hint: str = "") -> None:
+        super().__init__(message)
+        self.key, self.hint = key, hint
 
 
 class Components(NamedTuple):
@@ -73,7 +81,7 @@ def jonswap(f: np.ndarray, height: float, period: float, gamma: float) -> np.nda
 @dataclass
 class Waves:
     """`kind`: of KINDS. `depth` of the water at the piston, `height` (of irregular and focused waves H_m0, and the height of the crest at the focus) [L];
-    `period` (of the peak) [T]; `seed` and `gamma` of irregular ones; `focus`: distance from the piston and time; `record`: (n, 2) time and elevation at the
+    `period` (of the peak) [T]; `seed` and `gamma` of irregular ones; `focus`: distance from the piston and time, which focused waves need; `record`: (n, 2) time and elevation at the
     piston. `ramp`: periods over which waves grow from nothing."""
 
     kind: str
@@ -83,31 +91,62 @@ class Waves:
     g: float = 9.81
     seed: int = 1
     gamma: float = 3.3
-    focus: tuple[float, float] = (0.0, 0.0)
+    focus: tuple[float, float] | None = None
     components: int = 200
     ramp: float = _RAMP
     record: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise WaveFault(f"no kind of waves '{self.kind}': {', '.join(KINDS)}")
-        if not self.depth > 0:
-            raise WaveFault(f"the depth of the water is {self.depth:g}: it must be above 0")
+            raise WaveFault(f"no kind of waves '{self.kind}': {', '.join(KINDS)}", "kind")
+        if not (self.g > 0 and math.isfinite(self.g)):
+            raise WaveFault(f"gravity is {self.g:g}: waves need one above 0")
+        self._check_size("depth", "depth of the water")
+        if not (self.ramp >= 0 and math.isfinite(self.ramp)):
+            raise WaveFault(f"the ramp is {self.ramp:g}: it must be 0 or more periods", "ramp", "ramp: 2, or 0 for waves that begin at once")
         if self.kind == "elevation":
-            if self.record.ndim != 2 or self.record.shape[1] != 2 or len(self.record) < 8 or not (np.diff(self.record[:, 0]) > 0).all():
-                raise WaveFault("a record has eight rows or more of time and elevation, with times that go upwards")
+            self._check_record()
             return
-        if not self.height > 0:
-            raise WaveFault(f"the height of the waves is {self.height:g}: it must be above 0")
+        self._check_size("height", "height of the waves")
         if self.kind == "solitary":
             if self.height > 0.78 * self.depth:
-                raise WaveFault(f"a solitary wave of {self.height:g} in a depth of {self.depth:g} breaks: at most 0.78 of the depth")
+                raise WaveFault(f"a solitary wave of {self.height:g} in a depth of {self.depth:g} breaks: at most 0.78 of the depth", "height")
             return
-        if not self.period > 0:
-            raise WaveFault(f"the period of the waves is {self.period:g}: it must be above 0")
+        self._check_size("period", "period of the waves")
+        if not self.wave * self.depth > _SHALLOWEST:
+            raise WaveFault(f"the period of the waves is {self.period:g}: too long for a depth of {self.depth:g}", "period", "a shorter period")
         highest = breaking_height(self.wave, self.depth)
         if self.height > highest:
-            raise WaveFault(f"waves of height {self.height:g} and period {self.period:g} break in a depth of {self.depth:g}: at most {highest:.3g}")
+            raise WaveFault(f"waves of height {self.height:g} and period {self.period:g} break in a depth of {self.depth:g}: at most {highest:.3g}", "height")
+        if self.kind not in ("regular", "second_order"):
+            self._check_spectrum()
+
+    def _check_size(self, key: str, name: str) -> None:
+        value = getattr(self, key)
+        if not (value > 0 and math.isfinite(value)):
+            raise WaveFault(f"the {name} is {value:g}: it must be above 0" + ("" if not value > 0 else " and finite"), key)
+
+    def _check_record(self) -> None:
+        r = self.record
+        if r.ndim != 2 or r.shape[1] != 2 or len(r) < 8 or not np.isfinite(r).all() or not (np.diff(r[:, 0]) > 0).all():
+            raise WaveFault("a record has eight rows or more of time and elevation, with times that go upwards", "record")
+        if not np.ptp(r[:, 1]) > 0:
+            raise WaveFault(f"the record is {r[0, 1]:g} at all times: it has no waves", "record")
+
+    def _check_spectrum(self) -> None:
+        """Numbers of a spectrum; what is out of range would give values that are not numbers, or a traceback of numpy."""
+        for key, (least, most) in {"components": COMPONENTS, "seed": (0, 2**53)}.items():
+            value = getattr(self, key)
+            if not least <= value <= most or value != int(value):
+                raise WaveFault(f"{key} is {value:g}: expected a whole number from {least} to {most}", key)
+        if not GAMMA[0] <= self.gamma <= GAMMA[1]:
+            raise WaveFault(f"gamma is {self.gamma:g}: expected {GAMMA[0]:g} to {GAMMA[1]:g}", "gamma", "3.3 is that of the North Sea, 1 gives pierson_moskowitz")
+        if self.kind != "focused":
+            return
+        if self.focus is None:
+            raise WaveFault("focused waves need 'focus'", "focus", "focus: [distance from the wall, time]")
+        if not all(math.isfinite(value) for value in self.focus) or not (self.focus[0] >= 0 and self.focus[1] > 0):
+            raise WaveFault(f"focus is {self.focus[0]:g}, {self.focus[1]:g}: expected a distance of 0 or more and a time above 0", "focus")
 
     @property
     def omega(self) -> float:
@@ -124,18 +163,19 @@ class Waves:
             return Components(np.array([self.height / 2]), np.array([self.omega]), np.array([0.0]))
         if self.kind == "elevation":
             return self._of_record()
-        f = np.linspace(0.5, 4, self.components + 1) / self.period
-        random = np.random.default_rng(self.seed)
+        count = int(self.components)
+        f = np.linspace(0.5, 4, count + 1) / self.period
+        random = np.random.default_rng(int(self.seed))
         # bands of equal width would repeat after 1/df: each has its frequency somewhere within
-        at = f[:-1] + np.diff(f) * (random.random(self.components) if self.kind != "focused" else 0.5)
+        at = f[:-1] + np.diff(f) * (random.random(count) if self.kind != "focused" else 0.5)
         density = jonswap(at, self.height, self.period, 1.0 if self.kind == "pierson_moskowitz" else self.gamma)
         amplitude = np.sqrt(2 * density * np.diff(f))
         amplitude *= self.height / 4 / math.sqrt(0.5 * float((amplitude**2).sum()))
         omega = 2 * math.pi * at
         if self.kind != "focused":
-            return Components(amplitude, omega, 2 * math.pi * random.random(self.components))
+            return Components(amplitude, omega, 2 * math.pi * random.random(count))
         amplitude *= self.height / amplitude.sum()
-        x, t = self.focus
+        x, t = self.focus or (0.0, 0.0)
         return Components(amplitude, omega, omega * t - wave_number(omega, self.depth, self.g) * x)
 
     def _of_record(self) -> Components:
@@ -149,11 +189,14 @@ class Waves:
         return Components(np.abs(parts)[kept], omega[kept], (-np.angle(parts) + omega * self.record[0, 0])[kept])
 
     def elevation(self, x: float, t: np.ndarray) -> np.ndarray:
-        """Elevation at a distance from the piston by linear theory, without the growth at the start; of a solitary wave Boussinesq's. (n,) [L]"""
+        """Elevation at a distance from the piston at its start, by linear theory without the growth at the start; of a solitary wave Boussinesq's.
+        (n,) [L]"""
         t = np.asarray(t, dtype=float)
         if self.kind == "solitary":
             kappa, c = self._solitary()
-            return self.height / np.cosh(kappa * (x - c * (t - self._start()))) ** 2
+            # the crest leaves the piston in the middle of the stroke, half of it ahead of the start
+            ahead = x - self.height / (kappa * self.depth)
+            return self.height / np.cosh(np.clip(kappa * (ahead - c * (t - self._start())), -300, 300)) ** 2
         of = self.spectrum()
         k = wave_number(of.omega, self.depth, self.g)
         phase = of.omega[None] * t[:, None] - k[None] * x - of.phase[None]
@@ -161,14 +204,14 @@ class Waves:
 
     def displacement(self, end: float) -> np.ndarray:
         """Time and displacement of the piston from its position at t = 0, towards the water, to `end`; (n, 2) [T], [L]."""
-        if not end > 0:
-            raise WaveFault(f"the end is {end:g}: it must be above 0")
+        if not (end > 0 and math.isfinite(end)):
+            raise WaveFault(f"the end is {end:g}: it must be above 0" + ("" if not end > 0 else " and finite"))
         if self.kind == "solitary":
             return self._push(end)
         of = self.spectrum()
         period = 2 * math.pi / float(of.omega.max())
         longest = self.period or float(self.record[-1, 0] - self.record[0, 0]) / 10
-        t = np.linspace(0, end, max(2, math.ceil(_STEPS * end / min(period, longest)) + 1))
+        t = self._times(end, max(2.0, _STEPS * end / min(period, longest)))
         k = wave_number(of.omega, self.depth, self.g)
         half_stroke = of.amplitude / piston_transfer(k * self.depth)
         x = np.zeros_like(t)
@@ -181,13 +224,19 @@ class Waves:
             x *= 0.5 - 0.5 * np.cos(math.pi * np.clip(t / (self.ramp * longest), 0, 1))
         return np.column_stack([t, x - x[0]])
 
+    @staticmethod
+    def _times(end: float, intervals: float) -> np.ndarray:
+        if not intervals < _MOST_ROWS:
+            raise WaveFault(f"the displacement would have {intervals:.3g} rows; {_MOST_ROWS:.0e} are the limit", hint="longer waves, or an earlier end")
+        return np.linspace(0, end, math.ceil(intervals) + 1)
+
     def _second_order(self) -> float:
         """Amplitude of the harmonic that suppresses the free second harmonic. Source: Madsen, J. Geophys. Res. 76 (1971), eq. 27. [L]"""
         kd = self.wave * self.depth
         m = float(piston_transfer(kd))
         ursell = self.height * (2 * math.pi / self.wave) ** 2 / self.depth**3
         if ursell > 8 * math.pi**2 / 3:
-            raise WaveFault(f"H L^2/d^3 is {ursell:.3g}: second order holds up to {8 * math.pi**2 / 3:.3g}; make the waves lower or shorter")
+            raise WaveFault(f"H L^2/d^3 is {ursell:.3g}: second order holds up to {8 * math.pi**2 / 3:.3g}; make the waves lower or shorter", "height")
         return self.height**2 / (32 * self.depth) * (3 * math.cosh(kd) / math.sinh(kd) ** 3 - 2 / m)
 
     def _solitary(self) -> tuple[float, float]:
@@ -201,7 +250,7 @@ class Waves:
     def _push(self, end: float) -> np.ndarray:
         """Source: Goring, Tsunamis - the propagation of long waves onto a shelf, Caltech (1978), eq. 3.24."""
         kappa, c = self._solitary()
-        t = np.linspace(0, end, max(200, math.ceil(200 * end / (2 * self._start())) + 1))
+        t = self._times(end, max(199.0, 200 * end / (2 * self._start())))
         x = np.zeros_like(t)
         reach = self.height / (kappa * self.depth)
         for _ in range(100):

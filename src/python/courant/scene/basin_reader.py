@@ -1,9 +1,11 @@
 """Water with its box, walls and bodies, in a description that needs no cards."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 
 import numpy as np
 
+from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
 from .model import MOST_ENTITIES, Lattice, Model, Near
@@ -11,7 +13,8 @@ from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
-from .wave_reader import check_reach, read_waves
+from .water_checks import check_overlaps, check_piston
+from .wave_reader import Piston, check_reach, read_waves
 
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "wall_method", "gravity", "end", "output")
@@ -20,6 +23,10 @@ METHODS = ("contact", "mirrors", "mixed")
 
 
 class BasinReader(ShapeReader):
+    def __init__(self, path: str, overrides: Mapping[str, str], diagnostics: Diagnostics) -> None:
+        super().__init__(path, overrides, diagnostics)
+        self.pistons: list[Piston] = []  # in the order of the scene
+
     def read_basin(self, root: Node, model: Model) -> None:
         water = self.get(root, "water")
         if water is None:
@@ -43,6 +50,7 @@ class BasinReader(ShapeReader):
         if self.diagnostics.errors == before:
             self.fill(basin)
             self.check_solids(basin)
+            self.check_water(basin)
         if self.diagnostics.errors > before:
             return
         if fault := basin.complete():
@@ -116,21 +124,27 @@ class BasinReader(ShapeReader):
         axes = ("x", "y", "z")[: self.dim or 3]
         self.check_keys(entry, "motion", (*axes, "waves"))
         out: dict[str, str | np.ndarray] = {}
+        made: str | np.ndarray
         for key, value in entry.value:
-            if key.value == "waves":
-                made = read_waves(self, value, basin.gravity, basin.end)
-                if made is not None and made[0] in out:
-                    self.error(value, f"motion: the waves and a formula both move the wall along {made[0]}")
-                elif made is not None:
-                    out[made[0]] = made[1]
-                continue
-            if not is_scalar(value):
+            axis = str(key.value)
+            if axis == "waves":
+                piston = read_waves(self, value, basin.gravity, basin.end)
+                if piston is None:
+                    continue
+                axis, made = piston.axis, piston.series
+                self.pistons.append(piston)
+            elif not is_scalar(value):
                 self.error(value, "motion: expected a formula of TIME")
                 continue
-            try:
-                out[str(key.value)] = substitute(value.value, self.variables)
-            except PlaceholderFault as fault:
-                self.error(value, fault.message)
+            else:
+                try:
+                    made = substitute(value.value, self.variables)
+                except PlaceholderFault as fault:
+                    self.error(value, fault.message)
+                    continue
+            if axis in out and (key.value == "waves" or not isinstance(out[axis], str)):
+                self.error(value, f"motion: the waves and a formula both move the wall along {axis}", f"leave out the waves or '{axis}'")
+            out[axis] = made
         return out
 
     def read_solids(self, root: Node, basin: Basin) -> None:
@@ -145,7 +159,9 @@ class BasinReader(ShapeReader):
                 self.add_entities(entry, len(shape.faces))
                 solid = Solid(shape, closed=self._is_closed(shape), where=self.at(entry))
                 if key == "walls":
+                    before = len(self.pistons)
                     solid.motion = self.read_motion(entry, basin)
+                    solid.piston = self.pistons[-1] if len(self.pistons) > before else None
                     for axis, series in solid.motion.items():
                         if basin.box and not isinstance(series, str):
                             at = "xyz".index(axis)
@@ -153,6 +169,12 @@ class BasinReader(ShapeReader):
                 else:
                     self.read_body(entry, solid)
                 basin.solids.append(solid)
+
+    def check_water(self, basin: Basin) -> None:
+        check_overlaps(basin.water.lattices, self.variables, self.diagnostics)
+        for solid in basin.solids:
+            if solid.piston is not None and basin.water.lattices:
+                check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
 
     def check_solids(self, basin: Basin) -> None:
         """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""
@@ -222,7 +244,7 @@ class BasinReader(ShapeReader):
                 continue
             corner = origin + first * dx
             lattice = Lattice(shape.dim, (float(corner[0]), float(corner[1]), float(corner[2])), dx, (int(n[0]), int(n[1]), int(n[2])))
-            lattice.solids = [Near(shape)]
+            lattice.solids, lattice.location = [Near(shape)], self.at(node)
             self.add_entities(node, float(np.prod(n)))
             basin.water.lattices.append(lattice)
         # contact acts at half a spacing

@@ -38,7 +38,7 @@ class LatticeReader(ParameterReader):
         self.check_keys(node, "a block" if block else "a lattice", ("low", "high", *(() if block else ("spacing",)), "where", "jitter"))
         before = self.diagnostics.errors
         (low, dim), (high, high_dim) = self.vector(node, "low"), self.vector(node, "high")
-        lattice = Lattice(dim, low, spacing if block else self.length(node, "spacing"), (0, 0, 1))
+        lattice = Lattice(dim, low, spacing if block else self.length(node, "spacing"), (0, 0, 1), location=self.at(node))
         if (where := self.get(node, "where")) is not None:
             lattice.where = self.of_place(where, "where")
         if (jitter := self.get(node, "jitter")) is not None:

@@ -37,6 +37,7 @@ class Lattice:
     jitter: float = 0.0  # largest shift along each axis, of the spacing [-]
     solids: list[Any] = field(default_factory=list)  # closed shapes that the particles fill; none: all of the box
     without: list[Any] = field(default_factory=list)  # closed shapes that the particles keep out of
+    location: Location = field(default_factory=Location)  # of its entry, for messages
 
     @property
     def volume(self) -> float:

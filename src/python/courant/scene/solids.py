@@ -14,6 +14,7 @@ from .shapes import Shape
 
 if TYPE_CHECKING:
     from .basin import Basin
+    from .wave_reader import Piston
 
 FREE = ("x", "y", "z", "rx", "ry", "rz")
 FIRST_WALL, FIRST_BODY, FIRST_CURVE = 12, 101, 901
@@ -34,6 +35,7 @@ class Solid:
     hold: set[str] = field(default_factory=set)  # directions and turns that a free one does not take
     where: Location = field(default_factory=Location)
     part: int = 0
+    piston: Piston | None = None  # that makes waves
 
     def mirrors(self, method: str) -> bool:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
