@@ -14,6 +14,7 @@ from courant.histories import HistoryFile
 from courant.post.particles import ParticleSet, Points, first_surface, interpolate
 from made_runs import write_history
 from mixed_run import COURANT, needs_courant, run
+from scene.made import written
 
 RHO, G = 1000.0, 9.81
 
@@ -211,6 +212,12 @@ def test_cards_of_a_scene() -> None:
         ({"force": "wals"}, "the scene has no part 'wals'"),
         ({"point": (0, 0), "about": (0, 0)}, "'about' goes with 'force'"),
         ({"point": (0, 0), "interval": -1}, "interval: expected a length > 0"),
+        ({"point": (0, 0), "body": 9}, r"with: the scene has no part '9'\n  hint: its parts: water \(1\), walls \(11\)"),
+        ({"force": 99}, "force: the scene has no part '99'"),
+        ({"force": "water"}, "force: part 'water' has particles alone"),
+        ({"level": [(0.1, 0), (0.1, 0)]}, "level: start and end are the same point"),
+        ({"runup": [(0.1, 0), (0.1, 0)]}, "runup: start and end are the same point"),
+        ({"flux": [(0.1, 0), (0.1, 0)]}, "flux: start and end are the same point"),
     ],
 )
 def test_faults_of_a_scene(keys: dict[str, Any], message: str) -> None:
@@ -221,3 +228,47 @@ def test_faults_of_a_scene(keys: dict[str, Any], message: str) -> None:
 def test_two_gauges_of_one_name_are_refused() -> None:
     with pytest.raises(courant.CourantError, match="two gauges are called 'g'"):
         tank().gauge("g", point=(0, 0)).gauge("g", point=(0, 0)).deck()
+
+
+def test_parts_of_keywords_are_left_to_the_program() -> None:
+    made = tank().keywords("*PART\nmine\n        50         2         2").gauge("a", force=50)
+    assert cards(made)[2] == "1,0.005,50,3,0,0,0"
+
+
+def test_names_of_gauges_are_those_of_the_files() -> None:
+    for given, name in (("wave 1", "wave_1"), ("at the wall, left", "at_the_wall__left"), (".hidden", "_hidden"), ("-a.b", "-a.b"), ("$x", "_x")):
+        assert cards(tank().gauge(given, point=(0.1, 0.05)))[1] == name
+    with pytest.raises(courant.CourantError, match="two gauges are called 'a_b'\n  hint: other characters"):
+        tank().gauge("a_b", point=(0, 0)).gauge("a b", point=(0, 0)).deck()
+    with pytest.raises(courant.CourantError, match="name: '' has 0 characters"):
+        tank().gauge("", point=(0, 0)).deck()
+
+
+GAUGES = """title: tank
+water: {spacing: 0.02, blocks: [{low: [0, 0], high: [0.2, 0.2]}]}
+box: {low: [0, 0], high: [0.2, 0.3], open: [top]}
+end: 1
+gauges:
+  - {name: p, point: [0.1, 0.1]}
+  - GAUGE
+"""
+
+
+@pytest.mark.parametrize(
+    ("gauge", "place", "message"),
+    [
+        ("{point: [0.1, 0.1]}", "7:5", "a gauge: 'name' is missing"),
+        ("{name: a, point: [0.1, 0.1], with: 9}", "7:40", "with: the scene has no part '9'"),
+        ("{name: a, force: 99}", "7:22", "force: the scene has no part '99'"),
+        ("{name: a, level: [[0.1, 0], [0.1, 0]]}", "7:22", "level: start and end are the same point"),
+    ],
+)
+def test_faults_have_the_line_of_the_scene(tmp_path: Path, gauge: str, place: str, message: str) -> None:
+    out = written(tmp_path, GAUGES.replace("GAUGE", gauge))
+    assert out.messages.startswith(f"scene.yaml:{place}: error: {message}") and not out.deck, out.messages
+
+
+def test_a_flux_through_corners_on_a_line_is_refused() -> None:
+    made = courant.Scene("tank", spacing=0.1, end=1).water(low=(0, 0, 0), high=(1, 1, 1)).gauge("f", flux=[(0, 0, 0), (0, 0, 0.5), (0, 0, 1)])
+    with pytest.raises(courant.CourantError, match="flux: the corners are on a line"):
+        made.deck()

@@ -51,6 +51,7 @@ class BasinReader(ShapeReader):
             self.fill(basin)
             self.check_solids(basin)
             self.check_water(basin)
+            self.check_bodies_of_the_plane(basin)
         if self.diagnostics.errors > before:
             return
         if fault := basin.complete():
@@ -175,6 +176,14 @@ class BasinReader(ShapeReader):
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
+
+    def check_bodies_of_the_plane(self, basin: Basin) -> None:
+        """Bodies of the plane touch no wall: one that sinks would leave the box unseen."""
+        held = basin.box is not None or any(not solid.free for solid in basin.solids)
+        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold), None)
+        if basin.dim == 2 and held and falling is not None:
+            self.diagnostics.warning(falling.where, f"'{falling.shape.name or 'a body'}' passes through walls and falls through the floor: bodies of the plane "
+                                     "do not touch walls", "only the water acts on it; a scene in space has this contact, and hold: [x, y] keeps a body")
 
     def check_solids(self, basin: Basin) -> None:
         """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""

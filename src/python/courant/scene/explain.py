@@ -51,7 +51,7 @@ def explain_basin(basin: Basin, model: Model) -> None:
         add(f"water keeps out of '{solid.shape.name}'" if solid.closed or solid.shape.ground else f"'{solid.shape.name}' is thin: water on both sides",
             "closed shapes are solid; open ones have no inside", "*ELEMENT_SPH")
     if any(solid.free for solid in basin.solids):
-        add("bodies touch walls" if basin.dim == 3 else "bodies pass through walls", "all that can touch does" if basin.dim == 3 else
+        add("bodies touch walls" if basin.dim == 3 else "bodies pass through walls and fall through the floor", "all that can touch does" if basin.dim == 3 else
             "the program knows no contact of elements in the plane", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE" if basin.dim == 3 else "none")
     add(f"states each {number_text(basin.output)}, histories each {number_text(basin.output / 10)}", "a hundredth and a thousandth of the end, if not given",
         "*DATABASE_BINARY_D3PLOT, *DATABASE_GLSTAT, *DATABASE_MATSUM")

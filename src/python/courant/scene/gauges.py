@@ -5,6 +5,8 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
 
@@ -15,7 +17,8 @@ if TYPE_CHECKING:
 # Each kind with the corners of its points in the plane and in space: the least and the most.
 _KINDS = {"point": (1, 1), "level": (2, 2), "runup": (2, 2), "flux": (2, 3), "force": (0, 0)}
 _KEYS = (*_KINDS, "name", "interval", "with", "about")
-_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,59}", re.ASCII)
+_FOREIGN = re.compile(r"[^A-Za-z0-9_.-]", re.ASCII)  # characters that become _, as the program has it
+_LONGEST = 60  # name
 
 
 def read_gauges(reader: SceneReader, root: Node, model: Model) -> None:
@@ -45,13 +48,7 @@ def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, mode
         reader.error(node, "a gauge has one of " + ", ".join(_KINDS), "- {name: p1, point: [0.1, 0.2]}")
         return
     kind = given[0]
-    name_node = reader.get(node, "name")
-    name = reader.text(name_node) if name_node is not None else f"{kind}{number}"
-    if not _NAME.fullmatch(name):
-        reader.error(name_node or node, f"name: '{name}' is no name of a file", "letters, digits, - and _, at most 60")
-    if name in names:
-        reader.error(name_node or node, f"two gauges are called '{name}'")
-    names.add(name)
+    name = _name(reader, node, names)
     interval = reader.length(node, "interval") if reader.get(node, "interval") is not None else usual
     if not interval > 0 and reader.diagnostics.errors == before:
         reader.error(node, "'interval' is missing", "the scene has no 'end' from which one could follow")
@@ -64,16 +61,33 @@ def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, mode
         model.keywords.append(f"*COURANT_GAUGE_{kind.upper()}_TITLE\n{name}\n{number},{shortest(interval)}{front}\n" + "".join(f"{one}\n" for one in more))
 
 
+def _name(reader: SceneReader, node: Node, names: set[str]) -> str:
+    """That of the file and of the group of history.h5: by the rule of the program for titles, so that two gauges of one file are found here."""
+    entry = reader.get(node, "name")
+    if entry is None:
+        reader.error(node, "a gauge: 'name' is missing", "- {name: p1, point: [0.1, 0.2]}")
+        return ""
+    given = reader.text(entry)
+    name = _FOREIGN.sub("_", given)
+    name = "_" + name[1:] if name.startswith(".") else name
+    if not 0 < len(name) <= _LONGEST:
+        reader.error(entry, f"name: '{given}' has {len(name)} characters; 1 to {_LONGEST} are possible")
+    if name in names:
+        reader.error(entry, f"two gauges are called '{name}'", "" if name == given else "other characters than letters, digits, -, _ and . become _")
+    names.add(name)
+    return name
+
+
 def _cards(reader: SceneReader, node: Node, kind: str, model: Model) -> list[str]:
     """What follows the interval on the first card, and the cards behind it."""
     value = reader.get(node, kind)
     assert value is not None
     if kind == "force":
         about = reader.vector(node, "about")[0] if reader.get(node, "about") is not None else (0.0, 0.0, 0.0)
-        return [f",{_part(reader, value, model)},3,{_numbers(about)}"]
+        return [f",{_part(reader, value, model, kind)},3,{_numbers(about)}"]
     if kind == "point":
         body = reader.get(node, "with")
-        return [f",{_numbers(reader.vector(node, kind)[0])},{_part(reader, body, model) if body is not None else 0}"]
+        return [f",{_numbers(reader.vector(node, kind)[0])},{_part(reader, body, model, 'with') if body is not None else 0}"]
     points = _points(reader, value, kind)
     return [""] if not points else ["", ",".join(_numbers(one) for one in points[:2]), *(_numbers(one) for one in points[2:])]
 
@@ -91,24 +105,40 @@ def _points(reader: SceneReader, node: Node, kind: str) -> list[tuple[float, flo
             return []
         values = [reader.number(part, kind) or 0.0 for part in one.value]
         out.append((values[0], values[1], values[2] if len(values) > 2 else 0.0))
+    if _size(out) == 0:
+        reader.error(node, f"{kind}: {'the corners are on a line' if len(out) == 3 else 'start and end are the same point'}", example)
     if kind == "flux" and any(len(one.value) != len(out) for one in node.value):
         reader.error(node, "flux: expected two points [x, y] in the plane, three corners [x, y, z] in space", example)
     return out
 
 
-def _part(reader: SceneReader, node: Node, model: Model) -> int:
-    """A part by its number, or by the title that the scene gave it."""
+def _size(points: list[tuple[float, float, float]]) -> float:
+    """Length between two points, area between three; 0 within round-off."""
+    edges = [np.array(one) - np.array(points[0]) for one in points[1:]]
+    if len(edges) == 1:
+        return float(np.linalg.norm(edges[0]))
+    area, scale = float(np.linalg.norm(np.cross(*edges))), float(np.linalg.norm(edges[0]) * np.linalg.norm(edges[1]))
+    return area if area > 1e-6 * scale else 0.0
+
+
+def _part(reader: SceneReader, node: Node, model: Model, key: str) -> int:
+    """A part by its number, or by the title that the scene gave it; it has shells, as particles neither are faces nor move a point."""
     if not is_scalar(node):
         reader.error(node, "expected the number or the title of a part")
         return 0
     text = reader.text(node)
     titles = {part.title: part.id for part in model.parts}
-    if text in titles:
-        return titles[text]
-    if text.isdigit():
-        return int(text)
-    reader.error(node, f"the scene has no part '{text}'", f"{did_you_mean(text, tuple(titles))}its parts: {', '.join(titles)}")
-    return 0
+    number = titles.get(text, int(text) if text.isdigit() else 0)
+    found = next((part for part in model.parts if part.id == number), None)
+    if found is None:
+        # keywords may bring parts of their own, which only the program knows
+        if number and any("*PART" in (upper := block.upper()) or "*INCLUDE" in upper for block in model.keywords):
+            return number
+        reader.error(node, f"{key}: the scene has no part '{text}'",
+                     f"{did_you_mean(text, tuple(titles))}its parts: {', '.join(f'{part.title} ({part.id})' for part in model.parts)}")
+    elif not found.plates:
+        reader.error(node, f"{key}: part '{text}' has particles alone", "name a wall or a body: a part with faces")
+    return number
 
 
 def _numbers(point: Sequence[float]) -> str:

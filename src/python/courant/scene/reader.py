@@ -8,11 +8,12 @@ from dataclasses import replace
 from ..words import shortest
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin_reader import BasinReader
+from .damping import read_damping
 from .gauges import read_gauges
 from .model import MOST_ENTITIES, Model, Part, Plate
 from .placeholders import PlaceholderFault, substitute
 
-_SCENE = ("title", "base", "parameters", "water", "box", "walls", "bodies", "wall_method", "gravity", "end", "output", "parts", "gauges", "keywords")
+_SCENE = ("title", "base", "parameters", "water", "box", "walls", "bodies", "wall_method", "gravity", "end", "output", "parts", "gauges", "damping", "keywords")
 _PART = ("id", "title", "section", "material", "eos", "hourglass", "velocity", "pressure", "density", "merge", "first_id", "lattices", "plates")
 
 
@@ -42,6 +43,7 @@ class SceneReader(BasinReader):
             self.read_keywords(base, model)
         self.read_keywords(root, model)
         read_gauges(self, root, model)
+        read_damping(self, root, model)
         return model
 
     # parts of any kind

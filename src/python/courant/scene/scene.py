@@ -148,9 +148,17 @@ class Scene:
               about: Point | None = None) -> Scene:
         """Measures, under a name, one of: pressure, velocity and density at a `point` (which moves with a `body`); the `level` of the surface, or the
         `runup` of the water, on a line of two points; the `flux` through two points in the plane, three corners in space; the `force` on a part, and its
-        moment `about` a point. `body` and `force`: number or title of a part. `interval` [T]: a tenth of that of states, if not given."""
+        moment `about` a point. `body` and `force`: number or title of a part. `interval` [T]: a tenth of that of states, if not given. Other characters of
+        the name than letters, digits, -, _ and . become _."""
         given = {"point": point, "level": level, "runup": runup, "flux": flux, "force": force, "interval": interval, "with": body, "about": about}
         self._append(("gauges",), {"name": name, **{key: value for key, value in given.items() if value is not None}}, _caller())
+        return self
+
+    def damping(self, start: Point, end: Point, rate: Number, exponent: Number | None = None) -> Scene:
+        """Slows the water so that waves leave without a reflection: v' = - `rate` s^`exponent` v [1/T], where s grows from 0 at `start` to 1 at `end`, and
+        is 1 beyond; the exponent is 2, if not given."""
+        entry = {"start": start, "end": end, "rate": rate} | ({"exponent": exponent} if exponent is not None else {})
+        self._append(("damping",), entry, _caller())
         return self
 
     def keywords(self, text: str) -> Scene:
