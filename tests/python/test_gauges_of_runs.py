@@ -255,7 +255,7 @@ gauges:
 
 
 @pytest.mark.parametrize(
-    ("gauge", "place", "message"),
+    ("gauge", "position", "message"),
     [
         ("{point: [0.1, 0.1]}", "7:5", "a gauge: 'name' is missing"),
         ("{name: a, point: [0.1, 0.1], with: 9}", "7:40", "with: the scene has no part '9'"),
@@ -263,9 +263,9 @@ gauges:
         ("{name: a, level: [[0.1, 0], [0.1, 0]]}", "7:22", "level: start and end are the same point"),
     ],
 )
-def test_faults_have_the_line_of_the_scene(tmp_path: Path, gauge: str, place: str, message: str) -> None:
+def test_faults_have_the_line_of_the_scene(tmp_path: Path, gauge: str, position: str, message: str) -> None:
     out = written(tmp_path, GAUGES.replace("GAUGE", gauge))
-    assert out.messages.startswith(f"scene.yaml:{place}: error: {message}") and not out.deck, out.messages
+    assert out.messages.startswith(f"scene.yaml:{position}: error: {message}") and not out.deck, out.messages
 
 
 def test_a_flux_through_corners_on_a_line_is_refused() -> None:

@@ -13,7 +13,7 @@ _MESSAGE = re.compile(r"(?:(?P<file>[^\n]*?)(?::(?P<line>\d+))?(?::(?P<column>\d
 
 @dataclass(frozen=True)
 class Location:
-    """A place in an input file; line and column count from 1, 0 means "not known"."""
+    """A line in an input file; line and column count from 1, 0 means "not known"."""
 
     file: str = ""
     line: int = 0
@@ -39,8 +39,8 @@ class Diagnostic:
         return found[1] if found else ""
 
     def text(self) -> str:
-        place = f"{self.where}: " if self.where.file else ""
-        return f"{place}{self.severity}: {self.message}" + (f"\n  hint: {self.hint}" if self.hint else "")
+        where = f"{self.where}: " if self.where.file else ""
+        return f"{where}{self.severity}: {self.message}" + (f"\n  hint: {self.hint}" if self.hint else "")
 
 
 def presentable(text: str) -> str:

@@ -109,8 +109,8 @@ class Shape:
         for first, last in zip([0, *bounds[1:]], [*bounds[1:], len(count)]):  # so many pairs at once
             if last > first:
                 faces = np.repeat(np.arange(first, last), count[first:last])
-                places = np.arange(len(faces)) - np.repeat(np.cumsum(count[first:last]) - count[first:last], count[first:last]) + begin[faces]
-                found.append(_meet(corners, faces, feet, order[places], up))
+                slots = np.arange(len(faces)) - np.repeat(np.cumsum(count[first:last]) - count[first:last], count[first:last]) + begin[faces]
+                found.append(_meet(corners, faces, feet, order[slots], up))
         columns, heights = zip(*found) if found else ((np.zeros(0, dtype=int),), (np.zeros(0),))
         return np.concatenate(columns), np.concatenate(heights)
 
