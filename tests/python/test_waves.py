@@ -127,6 +127,8 @@ def test_a_recorded_elevation_comes_back() -> None:
         ({"kind": "elevation", "depth": 0.5, "record": np.column_stack([np.arange(9.0), np.full(9, np.nan)])}, "eight rows or more"),
         ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": math.inf}, "the period of the waves is inf"),
         ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": math.nan}, "the period of the waves is nan"),
+        ({"kind": "jonswap", "depth": 0.5, "height": 1e-300, "period": 1.4}, "the height of the waves is 1e-300: it must be above 0, from 1e-12"),
+        ({"kind": "solitary", "depth": 1e300, "height": 0.1}, "the depth of the water is 1e.300"),
         ({"kind": "regular", "depth": math.inf, "height": 0.1, "period": 1.0}, "the depth of the water is inf"),
         ({"kind": "solitary", "depth": 0.5, "height": math.nan}, "the height of the waves is nan"),
         ({"kind": "regular", "depth": 0.5, "height": 0.1, "period": 1.4, "g": 0.0}, "gravity is 0"),
@@ -144,3 +146,7 @@ def test_waves_that_cannot_be(keys: dict, message: str) -> None:
 
 def test_the_limit_of_miche() -> None:
     assert breaking_height(2 * math.pi, 100.0) == pytest.approx(0.142) and breaking_height(0.01, 1.0) == pytest.approx(0.892, rel=0.01)
+
+
+def test_second_order_in_deep_water_stays_finite() -> None:
+    assert np.isfinite(Waves("second_order", depth=1e4, height=0.05, period=1.4).displacement(3)).all()

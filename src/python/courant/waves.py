@@ -17,6 +17,8 @@ _STEPS = 80  # of the displacement, in a period
 _RAMP = 2.0  # periods over which waves grow
 _MOST_ROWS = 1_000_000  # of a displacement: a typing error in a period does not fill the memory
 _SHALLOWEST = 1e-3  # least wave number times depth: a piston would go a thousand heights of the wave
+_SIZES = (1e-12, 1e12)  # smallest and largest height, depth, period: powers of them stay finite
+_DEEPEST = 200.0  # wave number times depth: functions of it have their limits long before, and stay finite
 GAMMA = (1.0, 20.0)  # smallest and largest; measured spectra have 1 to 7
 COMPONENTS = (2, 10000)  # fewest and most; one component has no spectrum
 
@@ -123,8 +125,8 @@ class Waves:
 
     def _check_size(self, key: str, name: str) -> None:
         value = getattr(self, key)
-        if not (value > 0 and math.isfinite(value)):
-            raise WaveFault(f"the {name} is {value:g}: it must be above 0" + ("" if not value > 0 else " and finite"), key)
+        if not _SIZES[0] <= value <= _SIZES[1]:
+            raise WaveFault(f"the {name} is {value:g}: it must be above 0" + (f", from {_SIZES[0]:g} to {_SIZES[1]:g}" if value > 0 else ""), key)
 
     def _check_record(self) -> None:
         r = self.record
@@ -237,7 +239,8 @@ class Waves:
         ursell = self.height * (2 * math.pi / self.wave) ** 2 / self.depth**3
         if ursell > 8 * math.pi**2 / 3:
             raise WaveFault(f"H L^2/d^3 is {ursell:.3g}: second order holds up to {8 * math.pi**2 / 3:.3g}; make the waves lower or shorter", "height")
-        return self.height**2 / (32 * self.depth) * (3 * math.cosh(kd) / math.sinh(kd) ** 3 - 2 / m)
+        grows = min(kd, _DEEPEST)
+        return self.height**2 / (32 * self.depth) * (3 * math.cosh(grows) / math.sinh(grows) ** 3 - 2 / m)
 
     def _solitary(self) -> tuple[float, float]:
         return math.sqrt(0.75 * self.height / self.depth**3), math.sqrt(self.g * (self.depth + self.height))

@@ -88,7 +88,7 @@ def test_records(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         (IRREGULAR | {"gamma": -3}, "gamma is -3: expected 1 to 20"),
         ({"ramp": -1}, "the ramp is -1: it must be 0 or more periods\n  hint: ramp: 2"),
         ({"period": 1e9}, "too long for a depth of 0.5"),
-        ({"period": 1e-7, "height": 1e-20}, "the displacement would have 4.8e.09 rows"),
+        ({"period": 1e-4, "height": 1e-10}, "the displacement would have 4.8e.06 rows"),
         ({"towards": "up"}, "towards: 'up' is no direction"),
         ({"heigth": 0.1}, "waves: unknown key 'heigth'"),
     ],
