@@ -5,7 +5,7 @@
 
 namespace courant {
 
-/// Groups of bodies that joints connect, not counting connections by way of fixed bodies. What holds or
+/// Groups of bodies that joints connect, not counting connections through fixed bodies. What holds or
 /// drives a body counts as a joint to the ground.
 class Mechanisms {
  public:
