@@ -80,17 +80,22 @@ class PointGauge : public Gauge {
     return view.flat(body.x + body.axes * local_);
   }
   /// `wet`: whether the point is within the cell of some particle: half the diagonal of a cube, and a little
-  /// for particles that are not on a lattice.
+  /// for particles that are not on a lattice; or in a gap between particles that surround it: sum V W, 0.5
+  /// at a surface, is larger there.
   static std::vector<Seen> look(const GaugeView& view, std::span<const Index> near, const Vec& x, bool& wet) {
     const Real half = 1.15 * 0.5 * std::sqrt(Real(view.world.dim));
+    constexpr Real surrounded = 0.65;
+    Real sum = 0;
     std::vector<Seen> seen;
     for (const Index i : near) {
       const Vec d = view.position(i) - x;
       const Real r = d.norm();
       if (r >= view.reach(i)) continue;
       seen.push_back({i, d, view.volume(i) * view.weight(i, r)});
+      sum += seen.back().w;
       wet = wet || r <= half * view.spacing(i);
     }
+    wet = wet || sum > surrounded;
     return seen;
   }
   static void sum_up(const GaugeView& view, const Vec& x, const std::vector<Seen>& seen,

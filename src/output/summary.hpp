@@ -43,7 +43,7 @@ struct Summary {
   /// What changed at those restarts, so that results may differ from those of a run in one part.
   std::vector<std::string> restart_notes;
   std::vector<std::string> notes;  ///< what a reader of the results should know, and is no fault
-  std::string restart_file;  ///< the latest whole one that was written; empty: none
+  std::string restart_file;        ///< the latest whole one that was written; empty: none
   double wall_seconds = 0, cpu_seconds = 0;
   double read_seconds = 0;            ///< wall time for deck and set-up, before the run
   double writer_cpu_seconds = 0;      ///< part of cpu_seconds: writing results, beside the computation

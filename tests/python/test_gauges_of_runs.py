@@ -135,8 +135,8 @@ def test_flux_is_the_change_of_volume(dam: courant.Results) -> None:
         t, q = gauge["t"][until], gauge["volume"][until]
         through = float(np.sum(0.5 * np.diff(t) * (q[1:] + q[:-1])))
         beyond = float(water.V[water.x[:, 0] > x].sum() - first.V[first.x[:, 0] > x].sum())
-        # a slope of the surface within the reach of the kernel counts on one side: 0.3 % where the water is steepest
-        assert beyond > 0.01 and through == pytest.approx(beyond, rel=0.01 if x == 0.1 else 0.005), x
+        # a slope of the surface within the reach of the kernel counts on one side; that is four spacings
+        assert beyond > 0.01 and through == pytest.approx(beyond, rel=0.01 if x == 0.1 else 0.006), x
 
 
 def test_the_front_goes_on(dam: courant.Results) -> None:

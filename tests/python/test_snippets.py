@@ -14,7 +14,7 @@ import pytest
 from courant.optional import MissingModule
 
 PROJECT = Path(__file__).resolve().parents[2]
-SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 1}  # pages with Python, and how many pieces of it this file runs
+SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 3}  # pages with Python, and how many pieces of it this file runs
 
 
 def pieces(page: str) -> list[str]:
@@ -61,7 +61,7 @@ def test_a_scene_from_a_bad_surface(tmp_path, monkeypatch, capfd):
 
     monkeypatch.chdir(tmp_path)
     stl(Path("house.stl"), turned=(1, 4, 6, 9), left_out=(3,))
-    (piece,) = pieces("docs/scenes_in_python.md")
+    piece = pieces("docs/scenes_in_python.md")[0]
     assert len(piece.splitlines()) <= 15
     Path("house.py").write_text(piece.replace("spacing=0.04, end=1.2", "spacing=0.1, end=0.02"))
     names = {}
@@ -73,7 +73,7 @@ def test_a_scene_from_a_bad_surface(tmp_path, monkeypatch, capfd):
 
 def test_units(runs, monkeypatch):
     monkeypatch.chdir(runs)
-    (call,) = re.findall(r'`(courant\.open\("jump", .*?\))` tells', (PROJECT / "docs/post.md").read_text())
+    (call,) = re.findall(r'`(courant\.open\("jump", .*?\))` names others', (PROJECT / "docs/post.md").read_text())
     assert eval(call).energies.units["kinetic"] == "t mm2/s2"  # noqa: S307
 
 
@@ -97,3 +97,20 @@ def test_the_call_of_the_first_page(runs):
     call = call.replace("results/hydraulic_jump", str(runs / "jump"))
     done = subprocess.run(f"{sys.executable} -B {call}", shell=True, env=os.environ | {"PYTHONPATH": str(PROJECT / "src/python")}, capture_output=True, text=True)
     assert re.fullmatch(r"\d+\.\d+ kg m2/s2 \(\d+, 3\)\n", done.stdout), done.stdout + done.stderr
+
+
+def test_steps_callbacks_and_sweeps(tmp_path, monkeypatch):
+    from courant.native import native
+
+    if native() is None:
+        pytest.skip("the extension module is missing: apt-get install pybind11-dev")
+    monkeypatch.chdir(tmp_path)
+    scene = courant.Scene("tow", parameters={"n": 4}, spacing="0.4 / n", end=0.05)
+    scene.water(low=(0, 0), high=(1.2, 0.4)).box(low=(0, 0), high=(2, 0.8))
+    scene.body(box={"low": (1.4, 0.1), "high": (1.6, 0.3)}, density=500, title="house")
+    names = {"courant": courant, "scene": scene}
+    _, steps, sweep = pieces("docs/scenes_in_python.md")
+    exec(steps, names)  # noqa: S102
+    assert names["state"].t > 0 and courant.open("towed").states[-1].t == pytest.approx(0.05, rel=0.1)
+    exec(sweep.replace("[20, 40, 80]", "[4, 8]"), names)  # noqa: S102
+    assert len(names["table"]) == 2 and Path("convergence/n=8/summary.yaml").is_file()

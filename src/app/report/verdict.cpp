@@ -70,13 +70,13 @@ void add_modes(const Summary& s, std::vector<Finding>& out) {
   const Real share = largest(s, "unresisted_modes").value_or(0);
   if (!(share > s.limits.hourglass_doubtful)) return;
   const std::string effect = share < 1
-                                 ? fmt::format("displacements are too large by about {:.3g} %", 100 * share)
+                                 ? fmt::format("displacements are too large by up to {:.3g} %", 100 * share)
                                  : std::string("almost nothing resists bending, or forces on single nodes");
   out.push_back(
       {false,
        fmt::format("solids of part {:.0f} bend in hourglass modes that hourglass control does not hold "
                    "as the material would: {}; take IHQ 6 with QM 1 of *HOURGLASS where they stay "
-                   "elastic, ELFORM 2, or at least four elements over the depth",
+                   "elastic, or at least four elements over the depth",
                    largest(s, "unresisted_modes_part").value_or(0), effect)});
 }
 

@@ -195,8 +195,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   std::vector<Damping> damping_;
   std::vector<std::array<Vec, 2>> damped_;  ///< force and moment that damping takes, of each body
   BodyTies* ties_ = nullptr;
-  Real program_work_ = 0, program_moved_ = 0;  ///< by changes of motion since the last entry of the ledger [ML2/T2]
-  bool program_loads_ = false;                 ///< a program has set some
+  Real program_work_ = 0,
+       program_moved_ = 0;      ///< by changes of motion since the last entry of the ledger [ML2/T2]
+  bool program_loads_ = false;  ///< a program has set some
 };
 
 /// The largest that the kinetic energy of masses at the nodes of a body can be over its own, however it

@@ -63,15 +63,14 @@ class JointReader {
   }
 
  private:
-  /// Joints are springs where the card gives them a stiffness of their own.
+  /// Of the springs that joints become where they do not fit.
   void read_penalty(const JointCard& card, Joint& joint) {
     constexpr Real undamped = 0.01;  // from there on down LS-DYNA has no damping, but for 0
     joint.rps = card.rps == 0 ? 1 : card.rps;
     joint.damp = card.damp == 0 ? 1 : card.damp <= undamped ? 0 : card.damp;
-    joint.yields = joint.rps != 1 && !exact_ && can_yield(joint);
     const char* why = exact_ ? "LMF 1 of *CONTROL_RIGID asks for joints that hold exactly"
                              : "joints of this kind hold exactly, without a penalty";
-    if (joint.rps != 1 && !joint.yields)
+    if (joint.rps != 1 && (exact_ || !can_yield(joint)))
       deck_.warning(diagnostics_, card, "RPS", fmt::format("{:g} has no effect: {}", card.rps, why),
                     "leave it out");
     if (joint.damp != 1 && (exact_ || !can_yield(joint)))
@@ -311,12 +310,12 @@ bool add_joints(const Deck& deck, const Model& model, std::shared_ptr<RigidBodie
   }
   if (!good || !diagnostics.ok()) return true;
   const auto pass = std::make_shared<Joints>(std::move(joints), bodies, reader.exact());
-  const auto [before, after, worst, misfit] = pass->make_start_consistent(world);
-  if (misfit)
+  const auto [before, after, worst, misfits] = pass->make_start_consistent(world);
+  if (!misfits.empty())
     deck.warning(
-        diagnostics, cards[*misfit], "",
+        diagnostics, cards[misfits.front()], "",
         "joints of a closed loop, or what holds its bodies, almost say the same twice, and contradict "
-        "each other a little: all joints are penalty springs, which open a little",
+        "each other a little: the joints of this mechanism are penalty springs, which open a little",
         "make axes parallel and places meet to all digits; take spherical and cylindrical joints "
         "where revolute ones say the same twice; or ask for exact joints by LMF 1 of *CONTROL_RIGID");
   constexpr Real rounding = 1e-6, of_rest_energy = 1e-20;  // below: no motion that anybody gave

@@ -7,50 +7,41 @@ namespace courant {
 
 namespace {
 
-class Mechanisms {
- public:
-  explicit Mechanisms(std::size_t bodies) : parent_(bodies), closed_(bodies, false) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t of(std::size_t body) const {
-    while (parent_[body] != body) body = parent_[body];
-    return body;
-  }
-  void connect(std::size_t a, std::size_t b) {
-    const std::size_t first = of(a), second = of(b);
-    if (first == second) {
-      closed_[first] = true;
-      return;
-    }
-    parent_[second] = first;
-    closed_[first] = closed_[first] || closed_[second];
-  }
-  bool closed(std::size_t body) const { return closed_[of(body)]; }
-
- private:
-  std::vector<std::size_t> parent_;
-  std::vector<bool> closed_;
-};
-
 bool is_set(const std::array<bool, 3>& flags) {
   return std::find(flags.begin(), flags.end(), true) != flags.end();
 }
 
 }  // namespace
 
-std::vector<bool> in_closed_loops(const std::vector<Joint>& joints, const std::vector<RigidBody>& bodies) {
-  const std::size_t ground = bodies.size();
-  Mechanisms mechanisms(bodies.size() + 1);
-  const auto place = [&](std::size_t body) { return bodies[body].fixed() ? ground : body; };
-  for (const Joint& joint : joints) mechanisms.connect(place(joint.a), place(joint.b));
-  for (std::size_t b = 0; b < bodies.size(); ++b)
-    if (!bodies[b].fixed() &&
-        (is_set(bodies[b].held) || is_set(bodies[b].no_turn) || !bodies[b].motions.empty()))
-      mechanisms.connect(b, ground);
-  std::vector<bool> out;
+Mechanisms::Mechanisms(const std::vector<Joint>& joints, const std::vector<RigidBody>& bodies)
+    : groups_(bodies.size()) {
+  std::vector<std::size_t> parent(bodies.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto root = [&](std::size_t body) {
+    while (parent[body] != body) body = parent[body];
+    return body;
+  };
   for (const Joint& joint : joints)
-    out.push_back(mechanisms.closed(place(bodies[joint.a].fixed() ? joint.b : joint.a)));
-  return out;
+    if (!bodies[joint.a].fixed() && !bodies[joint.b].fixed()) parent[root(joint.b)] = root(joint.a);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].fixed()) continue;
+    Group& group = groups_[root(b)];
+    ++group.bodies;
+    if (is_set(bodies[b].held) || is_set(bodies[b].no_turn) || !bodies[b].motions.empty())
+      ++group.connections, ++group.to_ground;
+  }
+  for (const Joint& joint : joints) {
+    of_joint_.push_back(root(bodies[joint.a].fixed() ? joint.b : joint.a));
+    Group& group = groups_[of_joint_.back()];
+    ++group.connections;
+    if (bodies[joint.a].fixed() || bodies[joint.b].fixed()) ++group.to_ground;
+  }
+}
+
+// A tree has a connection less than it has bodies; the ground is one more.
+bool Mechanisms::closed(std::size_t joint) const {
+  const Group& group = groups_[of_joint_[joint]];
+  return group.connections > group.bodies - (group.to_ground > 0 ? 0 : 1);
 }
 
 }  // namespace courant

@@ -95,15 +95,16 @@ const char* joint_name(JointKind kind) {
 
 namespace {
 
-/// Calls `rows` for each equation of a joint, in their order.
+/// Calls `rows` for each equation of a joint, in their order. The force of a spring acts on both bodies at
+/// the same point, so that a joint that is open makes no moment: its axes turn with A.
 template <class Rows>
-void each_row(JointKind kind, const Rows& rows) {
+void each_row(const Joint& joint, const Rows& rows) {
   const auto together = [&] {
-    for (int k = 0; k < 3; ++k) rows.apart_globally(k);
+    for (int k = 0; k < 3; ++k) joint.yields ? rows.apart(k) : rows.apart_globally(k);
   };
   const auto on_axis = [&] { rows.apart(0), rows.apart(1); };
   const auto parallel = [&] { rows.cosine(0, 2), rows.cosine(1, 2); };
-  switch (kind) {
+  switch (joint.kind) {
     case JointKind::spherical:
       return together();
     case JointKind::revolute:
@@ -209,7 +210,7 @@ struct Changes {
 
 void add_rows(const Joint& joint, const BodyPose& a, const BodyPose& b, std::vector<JointRow>& rows) {
   const PlacedJoint now(joint, a, b);
-  each_row(joint.kind, Rows{joint, a, b, now, rows});
+  each_row(joint, Rows{joint, a, b, now, rows});
 }
 
 void add_changes(const Joint& joint, const BodyPose& a, const BodyPose& b, const BodyStep& step_a,
@@ -217,7 +218,7 @@ void add_changes(const Joint& joint, const BodyPose& a, const BodyPose& b, const
   const PlacedJoint now(joint, a, b);
   Changes rows{joint, a, b, step_a, step_b, now, changes};
   rows.find();
-  each_row(joint.kind, rows);
+  each_row(joint, rows);
 }
 
 Real turn_of(const Joint& joint, const BodyPose& a, const BodyPose& b, Real near) {

@@ -172,10 +172,6 @@ void Joints::add_springs(const std::vector<JointRow>& rows, const Clock& clock) 
   if (added) factorise(rows, &clock, follows_from_others);
 }
 
-void Joints::soften() {
-  for (Joint& joint : joints_) joint.yields = joint.yields || can_yield(joint);
-}
-
 std::array<Real, 2> Joints::sizes(const Joint& joint) const {
   Real coordinates = joint.at_a.norm() + joint.at_b.norm(), own = 0;
   for (const bool second : {false, true}) {
@@ -252,7 +248,7 @@ void Joints::look_at_gaps(const std::vector<JointRow>& rows, const std::vector<R
       if (a.fixed() && b.fixed()) continue;
       const bool spring = springs_.has(k);
       const bool gives_way = gap > too_far_[i] && !exact_ && !spring && can_yield(joints_[j]);
-      if (gives_way) soften();
+      if (gives_way) soften(j);
       if (!(gap <= too_far_[i]) && !gives_way)
         throw RunError(fmt::format(
             "t = {:g}: {} joint {} between parts {} and {} cannot be held: what drives or holds its bodies, "

@@ -44,8 +44,8 @@ class Joints : public BodyTies,
   struct Start {
     Real before = 0, after = 0;  ///< kinetic energy [ML2/T2]
     std::size_t worst = 0;       ///< the joint that velocities fitted least
-    /// The first joint of a loop whose equations almost follow from others, which became springs.
-    std::optional<std::size_t> misfit{};
+    /// Joints of loops whose equations almost follow from others: their mechanisms became springs.
+    std::vector<std::size_t> misfits{};
   };
   /// Takes from the velocities at the start what the joints do not allow, as a plastic impact does, once
   /// bodies that are driven have the velocities of their drives, which they keep.
@@ -100,10 +100,10 @@ class Joints : public BodyTies,
   void factorise(const std::vector<JointRow>& rows, const Clock* clock, Real least);
   /// Gives springs to the rows of joints that yield and have none yet.
   void add_springs(const std::vector<JointRow>& rows, const Clock& clock);
-  /// All joints but motors and gears yield from the next step on.
-  void soften();
-  /// The first joint of a closed loop with a row that adds almost nothing to others.
-  std::optional<std::size_t> find_misfit() const;
+  /// All joints of the mechanism of joint `at`, but motors and gears, yield from the next step on.
+  void soften(std::size_t at);
+  /// Joints of closed loops with a row that adds almost nothing to others.
+  std::vector<std::size_t> find_misfits() const;
   /// Sizes against which lengths of a joint count: of coordinates, whose round-off nobody can mend, and of
   /// the smaller of the bodies that can move [L].
   std::array<Real, 2> sizes(const Joint& joint) const;

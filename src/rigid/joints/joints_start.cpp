@@ -12,12 +12,23 @@ constexpr Real almost_follows = 1e-3;
 
 }  // namespace
 
-std::optional<std::size_t> Joints::find_misfit() const {
-  const std::vector<bool> closed = in_closed_loops(joints_, bodies_->bodies());
+std::vector<std::size_t> Joints::find_misfits() const {
+  const Mechanisms mechanisms(joints_, bodies_->bodies());
+  std::vector<std::size_t> out;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    if (!mechanisms.closed(j) || !can_yield(joints_[j])) continue;
+    bool almost = false;
+    for (Index k = first_row_[j]; k < first_row_[j + 1]; ++k)
+      almost = almost || (!matrix_.left_out(k) && matrix_.pivot(k) < almost_follows * free_[k]);
+    if (almost) out.push_back(j);
+  }
+  return out;
+}
+
+void Joints::soften(std::size_t at) {
+  const Mechanisms mechanisms(joints_, bodies_->bodies());
   for (std::size_t j = 0; j < joints_.size(); ++j)
-    for (Index k = first_row_[j]; closed[j] && can_yield(joints_[j]) && k < first_row_[j + 1]; ++k)
-      if (!matrix_.left_out(k) && matrix_.pivot(k) < almost_follows * free_[k]) return j;
-  return {};
+    if (mechanisms.same(j, at)) joints_[j].yields = joints_[j].yields || can_yield(joints_[j]);
 }
 
 void Joints::start_drives(const Clock& clock, World& world) {
@@ -44,10 +55,9 @@ Joints::Start Joints::make_start_consistent(World& world) {
   Start out{bodies_->kinetic_energy(), 0, 0};
   const std::vector<JointRow> rows = rows_at(poses_now());
   factorise(rows, &clock, follows_from_others);
-  if (!exact_ && (out.misfit = find_misfit())) {
-    soften();
-    factorise(rows, &clock, almost_follows);
-  }
+  if (!exact_) out.misfits = find_misfits();
+  for (const std::size_t joint : out.misfits) soften(joint);
+  if (!out.misfits.empty()) factorise(rows, &clock, almost_follows);
   constexpr int rounds = 2;  // the later one for round-off
   Real worst = 0;
   std::vector<Real> wanted(static_cast<std::size_t>(first_row_.back()), 0);

@@ -18,13 +18,16 @@ namespace {
 const RegisterKeyword<CourantWallSupport> wall_support_keyword{courant_wall_support_table()};
 
 /// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
-/// wall, or where mirrors do, holds them before that.
+/// wall, or where mirrors do, holds them before that. Images of wide kernels hardly push particles off a
+/// wall: there contact at half a spacing keeps still water still.
 void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& deck, const World& world,
-                     Diagnostics& diagnostics) {
+                     KernelChoice kernel, Diagnostics& diagnostics) {
+  constexpr Real wide = 3.9;  // spacings that the kernel reaches
   const Particles& p = world.particles;
   const Real dx = p.size() > 0 ? std::pow(p.m[0] / p.rho[0], 1.0 / world.dim) : 0;
   if (c.method == 1) {
-    if (thickness > 0.5 * dx)
+    const bool is_wide = p.size() > 0 && kernel_support(kernel) * p.h[0] > wide * dx;
+    if (thickness > (is_wide ? 1.05 : 0.5) * dx)
       diagnostics.warning(
           deck.where(c),
           fmt::format("*COURANT_WALL_SUPPORT: contact holds particles {:g} off the middle of the shells and "
@@ -148,7 +151,7 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
     walls.images = c.method == 1;
     if (walls.images) check_images(c, deck, model, world, settings, diagnostics);
     check_friction(c, deck, model, settings, diagnostics);
-    if (thickness > 0) check_thickness(c, thickness, deck, world, diagnostics);
+    if (thickness > 0) check_thickness(c, thickness, deck, world, settings.kernel, diagnostics);
   }
   read_wall_belts(deck, model, world, settings, diagnostics);
 }

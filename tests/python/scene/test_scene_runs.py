@@ -38,8 +38,8 @@ def test_bits_are_those_of_the_command_line(tmp_path: Path) -> None:
 def test_a_wrong_deck_is_an_exception_with_its_position(tmp_path: Path) -> None:
     deck = tank().write(tmp_path / "tank.k")
     text = deck.read_text()
-    deck.write_text(text.replace("         1       1.2       1.0       1.0", "         1       q.2       1.0       1.0"))
-    line = next(k for k, one in enumerate(deck.read_text().splitlines(), 1) if "q.2" in one)
+    deck.write_text(text.replace("         1       2.0       1.0       1.0", "         1       q.0       1.0       1.0"))
+    line = next(k for k, one in enumerate(deck.read_text().splitlines(), 1) if "q.0" in one)
     for call in (lambda: courant.run(deck, tmp_path / "never"), lambda: courant.check(deck)):
         with pytest.raises(courant.CourantError) as fault:
             call()
@@ -52,7 +52,7 @@ def test_a_wrong_deck_is_an_exception_with_its_position(tmp_path: Path) -> None:
 
 
 def test_a_run_that_ends_in_error_is_told_with_what_there_is(tmp_path: Path) -> None:
-    scene = tank().keywords("*CONTROL_TERMINATION\n       1.0         0     0.999\n")  # DTMIN above any step
+    scene = tank().keywords("*CONTROL_TERMINATION\n       1.0         0     1.001\n")  # DTMIN above any step
     with pytest.raises(courant.RunFailed) as fault:
         scene.run(tmp_path / "short", threads=1, quiet=True)
     assert fault.value.results.exit_code == 2 and fault.value.diagnostics.errors

@@ -48,7 +48,7 @@ std::string refusal(const std::string& card) {
 }
 
 TEST(DampingZone, WithoutLengthOrRateIsRefused) {
-  EXPECT_NE(refusal("1.,0.,0.,1.,0.,0.").find("the damping zone has no length"), std::string::npos);
+  EXPECT_NE(refusal("1.,0.,0.,1.,0.,0.,1.").find("the damping zone has no length"), std::string::npos);
   EXPECT_NE(refusal("1.,0.,0.,2.,0.,0.,-1.").find("(RATE,"), std::string::npos);
 }
 

@@ -92,7 +92,7 @@ _BOX = """\
 $#   secid    elform      shrf       nip
          2         2       1.0         2
 $#      t1        t2        t3        t4
-${t:10}${t:10}${t:10}${t:10}
+${touch:10}${touch:10}${touch:10}${touch:10}
 *CONTROL_CONTACT
 $#  slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien
        0.1         0         1         0         1         0         1
@@ -171,7 +171,7 @@ class Basin:
         """Of the cards."""
         return {"end": self.end, "dim": self.dim, "c0": self.sound_speed, "rho0": self.density, "pc": -1e20 if self.tension else 0.0,
                 "q": max(self.friction, 1e-20),  # 0 would be the default
-                "output": self.output, "g": self.gravity, "t": self.thickness, "touch": 0.9999 * self.spacing,
+                "output": self.output, "g": self.gravity, "touch": 0.9999 * self.spacing,
                 "sfsb": 1000.0 if self.dim == 2 and not self.whole_depth else 1.0}  # in 2D walls of a box are narrow strips
 
     @property
@@ -188,11 +188,6 @@ class Basin:
     def friction(self) -> float:
         """Linear coefficient of the artificial viscosity: none, as it damps waves."""
         return self.viscosity or 0.0
-
-    @property
-    def thickness(self) -> float:
-        """Of the shells: by contact, half of it and half a spacing just touch; mirrors hold the water, and contact only keeps it from passing [L]."""
-        return (0.4 if self.mirrors else 0.9999) * self.spacing
 
     def start(self) -> PlaceExpression | None:
         """Hydrostatic pressure of water at rest on the floor of its box, all of it with one surface."""
@@ -244,7 +239,7 @@ def add_basin(basin: Basin, model: Model) -> None:
         model.parts.append(walls)
     if basin.solids or (basin.mirrors and basin.box):
         number_parts(basin.solids)
-        model.parts += [part_of(solid, basin.method) for solid in basin.solids]
+        model.parts += [part_of(solid) for solid in basin.solids]
         model.keywords.append("$ Fixed walls: rigid shells\n" + substitute(_FIXED, variables))
         model.keywords += cards_of_solids(basin, walls if walls and walls.plates else None)
     elif basin.box:

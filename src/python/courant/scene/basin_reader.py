@@ -257,8 +257,7 @@ class BasinReader(ShapeReader):
             self.add_entities(node, float(np.prod(n)))
             basin.water.lattices.append(lattice)
         # contact acts at half a spacing
-        out = [Near(solid.shape, (0.25 if solid.mirrors(basin.method) else 0.5) * dx * (1 - 1e-6)) for solid in basin.solids
-               if solid.closed or solid.shape.ground]
+        out = [Near(solid.shape, 0.5 * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
         for lattice in basin.water.lattices:
             lattice.without = out
 

@@ -77,7 +77,7 @@ _SURFACES = """\
 $#   secid    elform      shrf       nip
          2         2       1.0         2
 $#      t1        t2        t3        t4
-${t:10}${t:10}${t:10}${t:10}
+${touch:10}${touch:10}${touch:10}${touch:10}
 *CONTROL_CONTACT
 $#  slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien
        0.1         0         1         0         1         0         1
@@ -93,15 +93,6 @@ $#    sfsa      sfsb
 *DATABASE_RCFORC
 $#      dt
 ${output / 10:10}
-"""
-
-_TOUCHING = """\
-$ Shapes by contact alone: half of their thickness and half a spacing just touch
-*SECTION_SHELL
-$#   secid    elform      shrf       nip
-         3         2       1.0         2
-$#      t1        t2        t3        t4
-${touch:10}${touch:10}${touch:10}${touch:10}
 """
 
 _MIRRORS = """\
@@ -149,10 +140,10 @@ def number_parts(solids: list[Solid]) -> None:
             solid.part, wall = wall, wall + 1
 
 
-def part_of(solid: Solid, method: str) -> Part:
+def part_of(solid: Solid) -> Part:
     """Fixed walls share material 2; what moves has one of its own, with the number of the part."""
     moves = solid.free or bool(solid.motion)
-    part = Part(id=solid.part, title=solid.shape.name[:70], section=2 if method == "contact" or solid.mirrors(method) else 3, material=solid.part if moves else 2, merge=True, plates=[solid.shape], where=solid.where)
+    part = Part(id=solid.part, title=solid.shape.name[:70], section=2, material=solid.part if moves else 2, merge=True, plates=[solid.shape], where=solid.where)
     if solid.free:
         part.inertia, part.velocity = solid.shape.inertia(solid.density), solid.velocity
     return part
@@ -198,8 +189,6 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
     mirrors += [solid.part for solid in basin.solids if solid.mirrors(basin.method)]
     if mirrors:
         out += [part_set(MIRRORS, mirrors), _MIRRORS]
-    if basin.method == "mixed" and not all(solid.mirrors(basin.method) for solid in basin.solids):
-        out.append(substitute(_TOUCHING, variables))
     if bodies and held and basin.dim == 3:  # elements of the plane do not touch each other
         out += [part_set(HELD, held), part_set(BODIES, bodies), _BODIES]
     if bodies or motions:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..diagnostics import Diagnostics
-from ..files import OutputError, make_folder, move, open_for_writing
+from ..files import OutputError, make_folder, move, open_for_writing, write_file
 from ..terminal import processors
 from ..words import nearest_word
 from .digest import digest, digest_of_build, digest_of_deck, digest_of_files
@@ -85,7 +85,7 @@ def _add_keywords(deck: Path, keywords: str) -> None:
     """Puts cards before *END, so that they replace those of the scene."""
     text = deck.read_text()
     at = text.rindex("*END")
-    deck.write_text(text[:at] + keywords.rstrip("\n") + "\n" + text[at:])
+    write_file(deck, text[:at] + keywords.rstrip("\n") + "\n" + text[at:])
 
 
 def _messages(text: str) -> list[str]:
