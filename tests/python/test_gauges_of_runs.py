@@ -210,7 +210,7 @@ def test_cards_of_a_scene() -> None:
         ({"flux": [(0, 0), (0, 1), (1, 1)]}, r"flux: expected two points \[x, y\] in the plane"),
         ({"force": "wals"}, "the scene has no part 'wals'"),
         ({"point": (0, 0), "about": (0, 0)}, "'about' goes with 'force'"),
-        ({"point": (0, 0), "interval": -1}, "interval: expected a length > 0"),
+        ({"point": (0, 0), "interval": -1}, "interval: expected a time > 0, got -1"),
     ],
 )
 def test_faults_of_a_scene(keys: dict[str, Any], message: str) -> None:

@@ -52,7 +52,7 @@ def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, mode
     if name in names:
         reader.error(name_node or node, f"two gauges are called '{name}'")
     names.add(name)
-    interval = reader.length(node, "interval") if reader.get(node, "interval") is not None else usual
+    interval = reader.length(node, "interval", "time") if reader.get(node, "interval") is not None else usual
     if not interval > 0 and reader.diagnostics.errors == before:
         reader.error(node, "'interval' is missing", "the scene has no 'end' from which one could follow")
     for key, only in (("with", "point"), ("about", "force")):

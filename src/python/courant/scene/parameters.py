@@ -10,7 +10,7 @@ from pathlib import Path
 from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, evaluate
 from ..yaml_map import Node, is_list, is_map, is_scalar, parse_yaml, scalar_text
-from .node_reader import NodeReader
+from .node_reader import OF_PYTHON, NodeReader
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*", re.ASCII)
 
@@ -144,6 +144,8 @@ class ParameterReader(NodeReader):
         unused.discard(name)
         text = self.overrides.get(name, node.value)
         try:
+            if node.tag == OF_PYTHON and name not in self.overrides:
+                raise ExpressionFault("expected a number or an expression")
             value = evaluate(text, self.variables)
         except ExpressionFault as fault:
             of = "--param" if name in self.overrides else "parameter"
