@@ -54,6 +54,14 @@ def test_pressure_of_still_water_at_twenty_rows(still: courant.Results) -> None:
     assert np.all(still.gauges["above"]["wet"] == 0) and np.all(np.isnan(still.gauges["above"]["pressure"]))
 
 
+def test_a_gauge_that_is_not_there_is_refused_with_those_there_are(still: courant.Results) -> None:
+    with pytest.raises(KeyError, match="the run has no gauge 'opn'; did you mean open\\? it has .*open.*"):
+        still.gauges["opn"]
+    with pytest.raises(KeyError, match="the run has no contact 77; it has"):
+        still.contacts[77]
+    assert "opn" not in still.gauges and still.gauges.get("opn") is None
+
+
 def test_level_of_still_water(still: courant.Results) -> None:
     for name in ("middle", "edge"):
         assert mean_of_end(still.gauges[name]["level"]) == pytest.approx(0.2, abs=0.002), name

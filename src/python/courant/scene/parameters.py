@@ -124,7 +124,7 @@ class ParameterReader(NodeReader):
         read_bases(lambda value: True)
         for name in sorted(unused):
             self.diagnostics.error(self.path, f"--param {name}: the scene has no such parameter",
-                                   f"its parameters: {', '.join(name for name, _ in self.parameters)}")
+                                   f"its parameters: {', '.join(name for name, _ in self.parameters) or 'none'}")
 
     def _checked_entries(self, node: Node | None, report: bool) -> list[tuple[Node, Node]]:
         if node is not None and not is_map(node) and report:
@@ -143,9 +143,10 @@ class ParameterReader(NodeReader):
             self.error(key, f"parameters: '{name}' stands twice")
         unused.discard(name)
         text = self.overrides.get(name, node.value)
+        if node.tag == OF_PYTHON and name not in self.overrides:
+            self.error(node, f"parameter {name}: expected a number, got {text}", "a number, or a text with an expression of the parameters above it")
+            text = "1"
         try:
-            if node.tag == OF_PYTHON and name not in self.overrides:
-                raise ExpressionFault("expected a number or an expression")
             value = evaluate(text, self.variables)
         except ExpressionFault as fault:
             of = "--param" if name in self.overrides else "parameter"
