@@ -63,7 +63,7 @@ def _node(value: Any, mark: Mark) -> Node:
 
 
 def _texts(parameters: Mapping[str, Number]) -> dict[str, str]:
-    """Values of parameters as they would stand in YAML. Raises CourantError for what is neither number nor text."""
+    """Values of parameters as texts of YAML. Raises CourantError for what is neither number nor text."""
     out, diagnostics = dict[str, str](), Diagnostics()
     for name, value in parameters.items():
         try:
