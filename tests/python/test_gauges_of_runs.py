@@ -55,6 +55,14 @@ def test_pressure_of_still_water_at_twenty_rows(still: courant.Results) -> None:
     assert np.all(still.gauges["above"]["wet"] == 0) and np.all(np.isnan(still.gauges["above"]["pressure"]))
 
 
+def test_a_gauge_that_is_not_there_is_refused_with_those_there_are(still: courant.Results) -> None:
+    with pytest.raises(KeyError, match="the run has no gauge 'opn'; did you mean open\\? it has .*open.*"):
+        still.gauges["opn"]
+    with pytest.raises(KeyError, match="the run has no contact 77; it has"):
+        still.contacts[77]
+    assert "opn" not in still.gauges and still.gauges.get("opn") is None
+
+
 def test_level_of_still_water(still: courant.Results) -> None:
     for name in ("middle", "edge"):
         assert mean_of_end(still.gauges[name]["level"]) == pytest.approx(0.2, abs=0.002), name
@@ -211,13 +219,13 @@ def test_cards_of_a_scene() -> None:
         ({"flux": [(0, 0), (0, 1), (1, 1)]}, r"flux: expected two points \[x, y\] in the plane"),
         ({"force": "wals"}, "the scene has no part 'wals'"),
         ({"point": (0, 0), "about": (0, 0)}, "'about' goes with 'force'"),
-        ({"point": (0, 0), "interval": -1}, "interval: expected a length > 0"),
         ({"point": (0, 0), "body": 9}, r"with: the scene has no part '9'\n  hint: its parts: water \(1\), walls \(11\)"),
         ({"force": 99}, "force: the scene has no part '99'"),
         ({"force": "water"}, "force: part 'water' has particles alone"),
         ({"level": [(0.1, 0), (0.1, 0)]}, "level: start and end are the same point"),
         ({"runup": [(0.1, 0), (0.1, 0)]}, "runup: start and end are the same point"),
         ({"flux": [(0.1, 0), (0.1, 0)]}, "flux: start and end are the same point"),
+        ({"point": (0, 0), "interval": -1}, "interval: expected a time > 0, got -1"),
     ],
 )
 def test_faults_of_a_scene(keys: dict[str, Any], message: str) -> None:

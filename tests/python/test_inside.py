@@ -2,9 +2,12 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +16,7 @@ import numpy as np
 import pytest
 from courant.native import native
 from courant.post.view_fields import field_names
+from courant.run_options import cores
 
 pytestmark = pytest.mark.skipif(native() is None, reason="the extension module is missing: apt-get install pybind11-dev")
 
@@ -130,6 +134,7 @@ def test_a_loop_over_states(tmp_path: Path) -> None:
             break
     assert courant.open(tmp_path / "early").summary["termination"] == "interrupted"
     assert courant.open(tmp_path / "early").summary["steps"] == 7
+    assert "stopped by the program" in courant.open(tmp_path / "early").summary["reason"]
     for folder in ("one", "two"):
         assert len([state.t for state in courant.steps(deck(tmp_path, 1e-3), tmp_path / folder, every=5e-4, quiet=True)]) == 4  # the end is one of its own
 
@@ -148,11 +153,12 @@ def test_an_exception_ends_the_run_cleanly(tmp_path: Path) -> None:
         for state in pool().steps(tmp_path / "loop", every_steps=1, quiet=True):
             fail(state)
     assert courant.open(tmp_path / "loop").summary["termination"] == "interrupted"
+    assert "stopped by the program" in courant.open(tmp_path / "loop").summary["reason"]
 
 
-def test_ctrl_c_ends_a_run_as_on_the_terminal(tmp_path: Path) -> None:
-    folder = tmp_path / "run"
-
+@contextmanager
+def ctrl_c(folder: Path) -> Iterator[None]:
+    """Presses it shortly after the run in the folder has begun."""
     def press() -> None:
         while not (folder / "messag").exists():
             time.sleep(0.01)
@@ -161,13 +167,37 @@ def test_ctrl_c_ends_a_run_as_on_the_terminal(tmp_path: Path) -> None:
 
     thread = threading.Thread(target=press)
     thread.start()
-    run = pool(end=100).run(folder, quiet=True)
+    yield
     thread.join()
-    assert run.termination == "interrupted" and "stopped by a signal" in run.summary["reason"]
+
+
+@pytest.mark.parametrize("in_process", [True, False])
+def test_ctrl_c_ends_a_run_with_its_results_and_is_raised(tmp_path: Path, in_process: bool) -> None:
+    folder = tmp_path / "run"
+    with ctrl_c(folder), pytest.raises(KeyboardInterrupt, match=re.escape(f"courant.open('{folder}')")):
+        pool(end=100).run(folder, quiet=True, in_process=in_process)
+    left = courant.open(folder)
+    assert left.summary["termination"] == "interrupted" and "stopped by a signal" in left.summary["reason"] and len(left.states) == 2
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     with pytest.raises(KeyboardInterrupt):  # and is caught as usual afterwards
         os.kill(os.getpid(), signal.SIGINT)
         time.sleep(1)
+
+
+def test_ctrl_c_in_a_callback_or_a_loop_is_raised(tmp_path: Path) -> None:
+    with ctrl_c(tmp_path / "callback"), pytest.raises(KeyboardInterrupt):
+        pool(end=100).run(tmp_path / "callback", quiet=True, callback=lambda state: time.sleep(0.1))
+    with ctrl_c(tmp_path / "loop"), pytest.raises(KeyboardInterrupt):
+        for _ in pool(end=100).steps(tmp_path / "loop", quiet=True, every=1.0):
+            pass
+    for folder in ("callback", "loop"):
+        assert courant.open(tmp_path / folder).summary["termination"] == "interrupted"
+
+
+def test_a_stop_of_another_thread_gives_the_results(tmp_path: Path) -> None:
+    stop = native().Stop()
+    threading.Timer(1.0, stop.ask).start()
+    assert pool(end=100).run(tmp_path / "run", quiet=True, stop=stop).termination == "interrupted"
 
 
 def test_forces_do_work_from_outside(tmp_path: Path) -> None:
@@ -208,11 +238,47 @@ def test_velocities_bring_energy_from_outside(tmp_path: Path) -> None:
     (lambda state: state.nodes.set_force((1, 0, 0), ids=11), "node 11 goes with a rigid body"),
     (lambda state: state.nodes.set_velocity((float("nan"), 0, 0), ids=1), "finite"),
     (lambda state: state.nodes.set_force((1, 0), ids=1), "three components"),
+    (lambda state: state.nodes.set_force((1, 0, "a"), ids=1), "three components, .* as numbers"),
+    (lambda state: state.bodies[2].push(force=(0, "a", 0)), r"^force=\(0, 'a', 0\): expected three numbers; give force="),
+    (lambda state: state.bodies[2].push(moment=3), "^moment=3: expected three numbers"),
+    (lambda state: state.bodies[2].move(omega=(0, 1)), r"^omega=\(0, 1\): expected three numbers"),
     (lambda state: state["solids of part 1"].set_force((0, 0, 0)), "do not move by forces of their own"),
     (lambda state: state.bodies[2].push(force=(0, 0, float("inf"))), "finite")])
 def test_what_cannot_be_changed_is_refused(tmp_path: Path, change: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         courant.run(deck(tmp_path), tmp_path / "run", quiet=True, callback=change)
+
+
+def test_a_body_that_is_not_there_is_refused_with_those_there_are(tmp_path: Path) -> None:
+    with pytest.raises(KeyError, match="the run has no rigid body 7; it has 2"):
+        courant.run(deck(tmp_path), tmp_path / "run", quiet=True, callback=lambda state: state.bodies[7].push())
+
+
+def follow(_: courant.LiveState) -> None:
+    pass
+
+
+@pytest.mark.parametrize(("options", "message"), [
+    ({"callback": follow, "every_steps": -3}, "every_steps=-3: expected a whole number of steps > 0\n  hint: "),
+    ({"callback": follow, "every_steps": 1.5}, "every_steps=1.5: expected a whole number"),
+    ({"callback": follow, "every": -1}, "every=-1: expected a time > 0\n  hint: "),
+    ({"every_steps": 3}, "every_steps=3 has no effect without a callback\n  hint: "),
+    ({"every": 0.1, "in_process": False}, "every=0.1 has no effect without a callback"),
+    ({"callback": 5}, "callback=5: expected a function\n  hint: "),
+    ({"threads": "two"}, "threads='two': expected a whole number >= 0\n  hint: "),
+    ({"threads": -1}, "threads=-1: expected a whole number >= 0"),
+    ({"threads": 4 * cores() + 1}, f"expected at most {4 * cores()}, 4 for each core\n  hint: one for each core is quickest: {cores()}"),
+    ({"until": -1}, "^error: until=-1: expected a time > 0\n  hint: "),
+    ({"until": "end"}, "^error: until='end': expected a time > 0")])
+def test_options_are_checked_before_the_run(tmp_path: Path, options: dict[str, Any], message: str) -> None:
+    with pytest.raises(courant.CourantError, match=message):
+        courant.run(deck(tmp_path), tmp_path / "run", quiet=True, **options)
+    assert not (tmp_path / "run").exists()
+
+
+def test_options_of_a_loop_are_checked(tmp_path: Path) -> None:
+    with pytest.raises(courant.CourantError, match="every_steps=-3"):
+        list(courant.steps(deck(tmp_path), tmp_path / "run", every_steps=-3, quiet=True))
 
 
 def test_errors_of_a_deck_name_file_line_and_field(tmp_path: Path) -> None:

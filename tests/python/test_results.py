@@ -39,6 +39,13 @@ def test_ascii_histories(run):
         run.ascii["matsum"]
 
 
+def test_a_table_is_a_mapping_of_its_columns(run):
+    table = run.energies
+    assert "kinetic" in table and "kin" not in table and 0 not in table
+    assert list(table) == list(table.keys()) == table.names == ["t", "kinetic", "total"] and len(table) == table.rows
+    assert all((values == table[name]).all() for name, values in dict(table).items())
+
+
 def test_states(run):
     assert len(run.states) == 5 and run.states.times.tolist() == [0, 1, 2, 3, 4] and run.states.at(2.9).t == 3 and len(run.states[1:3]) == 2
     state = run.states[-1]

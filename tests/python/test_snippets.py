@@ -14,7 +14,7 @@ import pytest
 from courant.optional import MissingModule
 
 PROJECT = Path(__file__).resolve().parents[2]
-SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 3}  # pages with Python, and how many pieces of it this file runs
+SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 4}  # pages with Python, and how many pieces of it this file runs
 
 
 def pieces(page: str) -> list[str]:
@@ -99,7 +99,7 @@ def test_the_call_of_the_first_page(runs):
     assert re.fullmatch(r"\d+\.\d+ kg m2/s2 \(\d+, 3\)\n", done.stdout), done.stdout + done.stderr
 
 
-def test_steps_callbacks_and_sweeps(tmp_path, monkeypatch):
+def test_steps_callbacks_sweeps_and_ctrl_c(tmp_path, monkeypatch, capsys):
     from courant.native import native
 
     if native() is None:
@@ -109,8 +109,10 @@ def test_steps_callbacks_and_sweeps(tmp_path, monkeypatch):
     scene.water(low=(0, 0), high=(1.2, 0.4)).box(low=(0, 0), high=(2, 0.8))
     scene.body(box={"low": (1.4, 0.1), "high": (1.6, 0.3)}, density=500, title="house")
     names = {"courant": courant, "scene": scene}
-    _, steps, sweep = pieces("docs/scenes_in_python.md")
+    _, steps, sweep, ctrl_c = pieces("docs/scenes_in_python.md")
     exec(steps, names)  # noqa: S102
     assert names["state"].t > 0 and courant.open("towed").states[-1].t == pytest.approx(0.05, rel=0.1)
     exec(sweep.replace("[20, 40, 80]", "[4, 8]"), names)  # noqa: S102
     assert len(names["table"]) == 2 and Path("convergence/n=8/summary.yaml").is_file()
+    exec(ctrl_c, names)  # noqa: S102
+    assert capsys.readouterr().out.endswith("normal\n")

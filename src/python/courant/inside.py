@@ -57,8 +57,6 @@ def run_inside(deck: str | PathLike[str], folder: str | PathLike[str], *, until:
                every: float = 0.0, stop: Any = None) -> tuple[int, str, Diagnostics]:
     """As courant.run; gives the exit code of the program, how the run ended in words, and the messages about the deck. `stop`: ends it when it is asked."""
     module = native()
-    if until is not None and not float(until) > 0 or threads < 0:
-        return 1, f"error: --until {until}: expected a time > 0" if threads >= 0 else f"error: --threads {threads}: expected 0 or more", Diagnostics()
     options = module.Options()
     options.deck, options.folder, options.restart = fspath(deck), fspath(folder), fspath(restart) if restart is not None else ""
     options.until, options.threads = float(until or 0.0), int(threads)

@@ -15,6 +15,7 @@ from typing import Any, Union
 import numpy as np
 
 from .units import MODEL_UNITS, Units
+from .words import Named
 
 _AXES = {3: ("x", "y", "z"), 6: ("xx", "yy", "zz", "xy", "yz", "zx")}
 Numbers = Union[np.ndarray, Sequence[float], Sequence[Sequence[float]]]
@@ -87,10 +88,24 @@ class LiveSet(Mapping[str, np.ndarray]):
 
     def _rows(self, values: Numbers, ids: int | Sequence[int] | np.ndarray | None) -> tuple[np.ndarray, np.ndarray]:
         at = np.arange(len(self))[self.active] if ids is None else self.index(ids)
-        rows = np.asarray(values, dtype=float)
+        try:
+            rows = np.asarray(values, dtype=float)
+        except (TypeError, ValueError):
+            raise ValueError(f"expected three components, or ({len(at)}, 3) of them, as numbers, got {values!r}") from None
         if rows.shape not in ((3,), (len(at), 3)):
             raise ValueError(f"expected three components, or ({len(at)}, 3) of them, got {rows.shape}")
         return at, np.broadcast_to(rows, (len(at), 3)).ravel()
+
+
+def _three(name: str, values: Any) -> np.ndarray:
+    """A vector; the extension module answers what is none with its own signatures."""
+    try:
+        vector = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        vector = np.empty(0)
+    if vector.shape != (3,):
+        raise ValueError(f"{name}={values!r}: expected three numbers; give {name}=(x, y, z), in the plane with z = 0")
+    return vector
 
 
 class LiveBody:
@@ -104,11 +119,11 @@ class LiveBody:
 
     def push(self, force: Sequence[float] = (0, 0, 0), moment: Sequence[float] = (0, 0, 0)) -> None:
         """Force and moment about the centre from the next step on, until they are set again; along axes that are held they do nothing."""
-        self._state.push_body(self._body.part, force, moment)
+        self._state.push_body(self._body.part, _three("force", force), _three("moment", moment))
 
     def move(self, velocity: Sequence[float] | None = None, omega: Sequence[float] | None = None) -> None:
         """Velocity of the centre and angular velocity, now; what is left out stays. Raises ValueError where the motion is prescribed."""
-        given = (self._body.v if velocity is None else velocity, self._body.omega if omega is None else omega)
+        given = (self._body.v if velocity is None else _three("velocity", velocity), self._body.omega if omega is None else _three("omega", omega))
         self._state.move_body(self._body.part, *given)
 
 
@@ -145,4 +160,4 @@ class LiveState:
     @property
     def bodies(self) -> dict[int, LiveBody]:
         """Rigid bodies by part."""
-        return {part: LiveBody(self._state, body) for part, body in self._state.bodies().items()}
+        return Named("rigid body", {part: LiveBody(self._state, body) for part, body in self._state.bodies().items()})

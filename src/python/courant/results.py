@@ -35,6 +35,7 @@ from .histories import HistoryFile
 from .optional import module
 from .tables import Table, table_of
 from .units import MODEL_UNITS, Dimension, Units, units_of_summary
+from .words import Named
 
 
 def open(folder: str | PathLike[str], units: Units | None = None) -> Results:  # noqa: A001  as gzip.open
@@ -402,7 +403,7 @@ class Results:
     def contacts(self) -> dict[int, Table]:
         """Force on the particles or nodes, and energies, of each contact over time, by its id."""
         groups = [group for group in self.histories.groups if re.fullmatch(r"contacts/\d+", group)]
-        return {int(group.partition("/")[2]): self.histories.table(group) for group in sorted(groups, key=lambda g: int(g[9:]))}
+        return Named("contact", {int(group.partition("/")[2]): self.histories.table(group) for group in sorted(groups, key=lambda g: int(g[9:]))})
 
     def wall_force(self, *ids: int) -> Table:
         """Total force that contacts exert on their walls over time: of those with these ids (0 are the mirrors), or of all. In a scene with bodies, whose
@@ -421,7 +422,7 @@ class Results:
     def gauges(self) -> dict[str, Table]:
         """What each gauge measured over its own times, by the gauge's name; empty where a run has no gauges."""
         names = [group.partition("/")[2] for group in self.histories.groups if group.startswith("gauges/")]
-        return {name: self.histories.table(f"gauges/{name}") for name in names}
+        return Named("gauge", {name: self.histories.table(f"gauges/{name}") for name in names})
 
     def table(self, name: str) -> Table:
         """ "energies", a group of history.h5 ("contacts/1"), the name of a gauge, or an ASCII history ("glstat")."""

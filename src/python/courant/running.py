@@ -15,6 +15,7 @@ from .live import LiveState
 from .native import native
 from .program import executable
 from .results import Results
+from .run_options import check_options
 from .units import Units
 
 class Run(Results):
@@ -68,12 +69,13 @@ def run(deck: str | PathLike[str], folder: str | PathLike[str] = "results", *, u
     `until`: end time instead of ENDTIM [T]; `threads`: 0 takes as many as are quickest; `parameters`: values of *PARAMETER or of the scene;
     `restart`: goes on from this file or folder. `progress` gets the status lines instead of the terminal. `callback` gets the state (courant.live) once
     in `every_steps` steps, each `every` time units and at the end, or in each step if neither is given; an exception in it ends the run cleanly, with all
-    results so far, and is raised here. Ctrl-C ends the run as it ends one on the terminal.
-    `stop`: an object of the extension module, whose `ask()` ends the run from another thread.
+    results so far, and is raised here. So does Ctrl-C: KeyboardInterrupt is raised once the results are written, and `courant.open` reads them.
+    `stop`: an object of the extension module, whose `ask()` ends the run from another thread; Ctrl-C, too, then gives the results without an exception.
     `in_process`: None takes this process where the extension module is there, False a process of its own; the bits are the same.
-    Raises CourantError with the messages where the deck is wrong (each has `where.file`, `where.line`, `field`, `message`, `hint`), and with `check`
+    Raises CourantError with the messages where an option or the deck is wrong (each has `where.file`, `where.line`, `field`, `message`, `hint`), and with `check`
     RunFailed where the run ended in error or its verdict is "broken".
     """
+    check_options(until=until, threads=threads, callback=callback, every_steps=every_steps, every=every)
     options = dict(until=until, threads=threads, parameters=parameters, restart=restart, quiet=quiet, progress=progress)
     inside = _may_run_inside(deck, callback is not None, in_process)
     if fspath(deck).endswith((".yaml", ".yml")) and inside:
@@ -85,13 +87,19 @@ def run(deck: str | PathLike[str], folder: str | PathLike[str] = "results", *, u
         from .inside import run_inside
 
         code, said, diagnostics = run_inside(deck, folder, **options, callback=callback, every_steps=every_steps, every=every, stop=stop)
+        pressed = False
     else:
-        code, said, diagnostics = _run_outside(deck, folder, **options)
+        code, said, diagnostics, pressed = _run_outside(deck, folder, **options)
     if code == 1 or (code not in (0, 2) and not Path(folder, "summary.yaml").exists()):
         if diagnostics.ok:
             diagnostics.error(fspath(deck), said.strip() or f"the program ended with {code}")
+        if pressed:
+            raise KeyboardInterrupt
         raise CourantError(diagnostics)
     results = Run(folder, diagnostics, code)
+    # in this process nothing but Ctrl-C, or `stop`, is a signal
+    if pressed or (inside and stop is None and str(results.summary.get("reason", "")).startswith("stopped by a signal")):
+        raise KeyboardInterrupt(f"the run has ended; its results so far: courant.open({fspath(folder)!r})")
     if code and check:
         raise RunFailed(diagnostics, results)
     return results
@@ -115,13 +123,13 @@ def _may_run_inside(deck: str | PathLike[str], must: bool, asked: bool | None) -
 
 
 def _run_outside(deck: str | PathLike[str], folder: str | PathLike[str], *, until: float | None, threads: int, parameters: Mapping[str, Any] | None,
-                 restart: str | PathLike[str] | None, quiet: bool, progress: Callable[[str], object] | None) -> tuple[int, str, Diagnostics]:
+                 restart: str | PathLike[str] | None, quiet: bool, progress: Callable[[str], object] | None) -> tuple[int, str, Diagnostics, bool]:
     words = [_program(), "run", fspath(deck), "-o", fspath(folder), "--threads", str(int(threads))]
     words += ["--until", repr(float(until))] if until is not None else []
     words += [word for name, value in (parameters or {}).items() for word in ("--param", f"{name}={value}")]
     words += ["--restart", fspath(restart)] if restart is not None else []
-    code, said = _wait(words + (["--quiet"] if quiet else []), quiet, progress)
-    return code, said, parse_messages(said)
+    code, said, pressed = _wait(words + (["--quiet"] if quiet else []), quiet, progress)
+    return code, said, parse_messages(said), pressed
 
 
 def check(deck: str | PathLike[str], *, parameters: Mapping[str, Any] | None = None) -> Diagnostics:
@@ -136,8 +144,8 @@ def check(deck: str | PathLike[str], *, parameters: Mapping[str, Any] | None = N
     return diagnostics
 
 
-def _wait(words: list[str], quiet: bool, progress: Callable[[str], object] | None = None) -> tuple[int, str]:
-    """Exit code, and what was said on standard error. Its output goes to that of this process, be it a terminal or a notebook."""
+def _wait(words: list[str], quiet: bool, progress: Callable[[str], object] | None = None) -> tuple[int, str, bool]:
+    """Exit code, what was said on standard error, and whether Ctrl-C ended it. Its output goes to that of this process, be it a terminal or a notebook."""
     try:
         terminal = sys.stdout.isatty() and sys.stdout.fileno() == 1
     except (AttributeError, OSError, ValueError):
@@ -156,6 +164,7 @@ def _wait(words: list[str], quiet: bool, progress: Callable[[str], object] | Non
     assert process.stderr
     reader = threading.Thread(target=collect, args=(process.stderr,), daemon=True)
     reader.start()
+    pressed = False
     while True:
         try:
             for line in process.stdout or ():
@@ -166,6 +175,7 @@ def _wait(words: list[str], quiet: bool, progress: Callable[[str], object] | Non
             process.wait()
             break
         except KeyboardInterrupt:
+            pressed = True
             process.send_signal(signal.SIGINT)
     reader.join()
-    return process.returncode, "".join(said)
+    return process.returncode, "".join(said), pressed

@@ -42,15 +42,18 @@ class Steps:
 
         module = native()
         stop = module.Stop() if module else None
+        waits = False  # the run, for the body of the loop
         worker = threading.Thread(target=work, name="courant run")
         worker.start()
         try:
             while (state := states.get()) is not None:
+                waits = True
                 yield state
+                waits = False
                 go_on.set()
         finally:
             left.set()
-            if stop is not None and worker.is_alive():
+            if stop is not None and not waits and worker.is_alive():  # Ctrl-C; a run that waits ends by the exception of its callback
                 stop.ask()
             go_on.set()
             worker.join()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -59,6 +59,17 @@ class Table:
 
     def __len__(self) -> int:
         return self.rows
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the columns, as of a pandas.DataFrame."""
+        return iter(self.names)
+
+    def keys(self) -> list[str]:
+        """Names of the columns: `dict(table)` has their values."""
+        return self.names
 
     def __repr__(self) -> str:
         return f"<Table {self.name}: {self.rows} rows of {', '.join(f'{one.name} [{one.unit}]' for one in self.columns)}>"

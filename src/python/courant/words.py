@@ -4,6 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import Any, TypeVar
+
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+
+
+class Named(dict[Key, Value]):
+    """A dictionary whose KeyError has the keys that there are. `what` one is: "gauge"."""
+
+    def __init__(self, what: str, entries: dict[Key, Value]) -> None:
+        super().__init__(entries)
+        self.what = what
+
+    def __missing__(self, key: Any) -> Value:
+        there = ", ".join(str(one) for one in self) or "none"
+        near = did_you_mean(key, (one for one in self if isinstance(one, str))) if isinstance(key, str) else ""
+        raise KeyError(f"the run has no {self.what} {key!r}; {near}it has {there}")
 
 
 def edit_distance(a: str, b: str) -> int:

@@ -203,6 +203,23 @@ def test_mistakes_name_the_line_of_the_call(tmp_path: Path) -> None:
         assert message in text and "test_scene_python.py:" in text, text
 
 
+@pytest.mark.parametrize(("make", "message"), [
+    (lambda: courant.Scene(spacing=0.1, end=-1).water((0, 0), (1, 1)), "end: expected a time > 0, got -1"),
+    (lambda: courant.Scene(spacing=0.1, end=1, output=-1).water((0, 0), (1, 1)), "output: expected a time > 0, got -1"),
+    (lambda: courant.Scene(spacing=0.1, end=1, density=-1).water((0, 0), (1, 1)), "density: expected a number > 0, got -1"),
+    (lambda: courant.Scene(spacing=0.1, end=1).water((0, None), (1, 1)), "low: expected a number, got None\n  hint: a number, or a text"),
+    (lambda: courant.Scene(spacing=0.1, end=1, parameters={"n": None}).water((0, 0), (1, 1)), "parameter n: expected a number, got None\n  hint: "),
+    (lambda: courant.Scene(spacing=0.1, end=1).with_parameters(n=None), "parameter n: expected a number or an expression, got None\n  hint: "),
+    (lambda: courant.Scene(spacing=0.1, end=1).water(None, (1, 1)), "'low' is missing")])
+def test_messages_have_the_kind_of_the_number(make: Any, message: str) -> None:
+    assert message in str(fails(lambda: make().deck()))
+
+
+def test_none_is_what_is_not_given() -> None:
+    sphere = {"centre": [0.5, 0.3, 0.45], "radius": 0.1}
+    assert scene().body(sphere=sphere, density=500, mass=None).deck().replace(",", "") == scene().body(sphere=sphere, density=500).deck().replace(",", "")
+
+
 def test_a_damaged_file_is_told(tmp_path: Path) -> None:
     for name, data in (("a.stl", b"\0" * 200), ("b.stl", b"solid x\nfacet"), ("c.ply", b"ply\nx"), ("d.obj", b"v 1"), ("e.dxf", b"0\nLINE"), ("f.svg", b"<svg")):
         (tmp_path / name).write_bytes(data)

@@ -62,7 +62,7 @@ def test_options_are_those_of_the_call(tmp_path: Path, capsys: pytest.CaptureFix
     run = tank().run(tmp_path / "out", threads=1, until=0.05)
     assert abs(run.summary["time"] - 0.05) < 0.01
     assert "results are in" in capsys.readouterr().out
-    with pytest.raises(courant.CourantError, match="--until"):
+    with pytest.raises(courant.CourantError, match="until=-1: expected a time > 0"):
         tank().run(tmp_path / "no", until=-1)
 
 

@@ -40,8 +40,8 @@ class BasinReader(ShapeReader):
             basin.gravity = self.number(gravity, "gravity") or 0.0
             if basin.gravity < 0:
                 self.error(gravity, "gravity: expected its size, >= 0; it acts downwards")
-        basin.end = self.length(root, "end")
-        basin.output = self.length(root, "output") if self.get(root, "output") is not None else basin.end / 100
+        basin.end = self.length(root, "end", "time")
+        basin.output = self.length(root, "output", "time") if self.get(root, "output") is not None else basin.end / 100
         if (box := self.get(root, "box")) is not None:
             self.read_box(box, basin)
         if self.diagnostics.errors == before:
@@ -65,9 +65,9 @@ class BasinReader(ShapeReader):
             return basin
         self.check_keys(node, "water", _WATER)
         if self.get(node, "density") is not None:
-            basin.density = self.length(node, "density")
+            basin.density = self.length(node, "density", "number")
         if self.get(node, "sound_speed") is not None:
-            basin.sound_speed = self.length(node, "sound_speed")
+            basin.sound_speed = self.length(node, "sound_speed", "speed")
         if (viscosity := self.get(node, "viscosity")) is not None:
             basin.viscosity = self.number(viscosity, "viscosity") or 0.0
             if basin.viscosity < 0:
@@ -216,7 +216,7 @@ class BasinReader(ShapeReader):
         if (mass is None) == (density is None):
             self.error(entry, "a body: expected its 'density' or its 'mass'")
             return
-        solid.density = self.length(entry, "density") if mass is None else self.length(entry, "mass") / solid.shape.volume()
+        solid.density = self.length(entry, "density", "number") if mass is None else self.length(entry, "mass", "number") / solid.shape.volume()
         solid.free = True
         if self.get(entry, "velocity") is not None:
             solid.velocity = self.vector(entry, "velocity")[0]

@@ -49,7 +49,7 @@ def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, mode
         return
     kind = given[0]
     name = _name(reader, node, names)
-    interval = reader.length(node, "interval") if reader.get(node, "interval") is not None else usual
+    interval = reader.length(node, "interval", "time") if reader.get(node, "interval") is not None else usual
     if not interval > 0 and reader.diagnostics.errors == before:
         reader.error(node, "'interval' is missing", "the scene has no 'end' from which one could follow")
     for key, only in (("with", "point"), ("about", "force")):

@@ -16,6 +16,7 @@ from .placeholders import PlaceholderFault, substitute
 
 _WORD = re.compile(r"[A-Za-z0-9_.]+", re.ASCII)
 PLACES = ("x", "y", "z")
+OF_PYTHON = "!mesh"  # the tag of what Python gave and YAML has no form for
 
 
 def named_places(text: str) -> set[str]:
@@ -90,6 +91,9 @@ class NodeReader:
         if not is_scalar(node):
             self.error(node, f"{what}: expected a number")
             return None
+        if node.tag == OF_PYTHON:
+            self.error(node, f"{what}: expected a number, got {node.value}", "a number, or a text with an expression of the scene's parameters")
+            return None
         try:
             return evaluate(node.value, self.variables)
         except ExpressionFault as fault:
@@ -135,18 +139,18 @@ class NodeReader:
             self.error(node, f"{what}: the expression is missing")
         return PlaceExpression(node.value, self.at(node))
 
-    def length(self, node: Node, key: str) -> float:
-        """A number > 0 under that key; 0, with a message, where there is none."""
+    def length(self, node: Node, key: str, what: str = "length") -> float:
+        """A number > 0 under that key, which messages call `what`; 0, with a message, where there is none."""
         entry = self.get(node, key)
         if entry is None:
             self.error(node, f"'{key}' is missing")
             return 0.0
-        return self.length_of(entry, key)
+        return self.length_of(entry, key, what)
 
-    def length_of(self, node: Node, key: str) -> float:
+    def length_of(self, node: Node, key: str, what: str = "length") -> float:
         value = self.number(node, key)
         if value is not None and not value > 0:
-            self.error(node, f"{key}: expected a length > 0, got {shortest(value)}")
+            self.error(node, f"{key}: expected a {what} > 0, got {shortest(value)}")
         return value if value is not None and value > 0 else 0.0
 
     def flag(self, node: Node, key: str, default: bool) -> bool:

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, evaluate
 from ..yaml_map import Node, is_list, is_map, is_scalar, parse_yaml, scalar_text
-from .node_reader import NodeReader
+from .node_reader import OF_PYTHON, NodeReader
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*", re.ASCII)
 
@@ -124,7 +124,7 @@ class ParameterReader(NodeReader):
         read_bases(lambda value: True)
         for name in sorted(unused):
             self.diagnostics.error(self.path, f"--param {name}: the scene has no such parameter",
-                                   f"its parameters: {', '.join(name for name, _ in self.parameters)}")
+                                   f"its parameters: {', '.join(name for name, _ in self.parameters) or 'none'}")
 
     def _checked_entries(self, node: Node | None, report: bool) -> list[tuple[Node, Node]]:
         if node is not None and not is_map(node) and report:
@@ -143,6 +143,9 @@ class ParameterReader(NodeReader):
             self.error(key, f"parameters: '{name}' stands twice")
         unused.discard(name)
         text = self.overrides.get(name, node.value)
+        if node.tag == OF_PYTHON and name not in self.overrides:
+            self.error(node, f"parameter {name}: expected a number, got {text}", "a number, or a text with an expression of the parameters above it")
+            text = "1"
         try:
             value = evaluate(text, self.variables)
         except ExpressionFault as fault:

@@ -21,7 +21,7 @@ import yaml
 from ..diagnostics import CourantError, Diagnostics
 from ..files import OutputError, write_file
 from ..words import shortest
-from ..yaml_map import Node, is_list
+from ..yaml_map import Node, is_list, is_map
 from .command import write_deck
 from .explain import explained
 from .model import Model
@@ -62,6 +62,19 @@ def _node(value: Any, mark: Mark) -> Node:
     return DataNode(value, mark)
 
 
+def _texts(parameters: Mapping[str, Number]) -> dict[str, str]:
+    """Values of parameters as texts of YAML. Raises CourantError for what is neither number nor text."""
+    out, diagnostics = dict[str, str](), Diagnostics()
+    for name, value in parameters.items():
+        try:
+            out[name] = value if isinstance(value, str) else shortest(float(value))
+        except (TypeError, ValueError):
+            diagnostics.error("", f"parameter {name}: expected a number or an expression, got {value!r}", f"{name}=0.5, or {name}=\"0.5 / 2\"")
+    if not diagnostics.ok:
+        raise CourantError(diagnostics)
+    return out
+
+
 class Scene:
     """What happens in a run. Numbers may be expressions of the scene's parameters, as texts. Two components make a scene of the plane with y upwards,
     three one of space with z upwards. Numbers are those of SI units; in others give `density` and `gravity`, too."""
@@ -89,25 +102,30 @@ class Scene:
     @classmethod
     def from_yaml(cls, file: str | PathLike[str], **parameters: Number) -> Scene:
         """The scene of a YAML file, with other values for some of its parameters. Raises CourantError."""
+        scene = cls._loaded(file, parameters)
+        scene._model()
+        return scene
+
+    @classmethod
+    def _loaded(cls, file: str | PathLike[str], parameters: Mapping[str, Number]) -> Scene:
+        """A scene in YAML whose description is not read yet."""
         scene = cls.__new__(cls)
         scene._path = fspath(file)
         scene._folder, scene._name, scene._of_python = path.dirname(scene._path), path.basename(scene._path), False
-        scene._overrides = {name: value if isinstance(value, str) else shortest(float(value)) for name, value in parameters.items()}
+        scene._overrides = _texts(parameters)
         diagnostics = Diagnostics()
         try:
             scene._root = SceneReader(scene._path, {}, diagnostics).load(scene._path)
         except OSError:
             diagnostics.error(scene._path, "the scene cannot be read", "check the name and the permissions")
-        if not diagnostics.ok:
-            raise CourantError(diagnostics)
-        scene._model()
+        cls._raise(diagnostics)
         return scene
 
     def with_parameters(self, **parameters: Number) -> Scene:
         """The same scene with other values for some of its parameters."""
         other = self.__class__.__new__(self.__class__)
         other.__dict__ |= self.__dict__
-        other._overrides = self._overrides | {name: value if isinstance(value, str) else shortest(float(value)) for name, value in parameters.items()}
+        other._overrides = self._overrides | _texts(parameters)
         return other
 
     # what is in it
@@ -245,6 +263,15 @@ class Scene:
         self._raise(found)
         return model
 
+    @property
+    def parameters(self) -> list[str]:
+        """Names of the parameters, of bases, too."""
+        reader = SceneReader(self._path, {}, Diagnostics())  # what is wrong is reported where the scene is read
+        reader.folder = self._folder
+        if is_map(self._root):
+            reader.read_parameters(self._root)
+        return list(dict.fromkeys(name for name, _ in reader.parameters))
+
     @staticmethod
     def _shape(shape: Any, keys: dict[str, Any]) -> dict[str, Any]:
         if shape is None:
@@ -275,7 +302,8 @@ class Scene:
         entry = _node({}, mark) if isinstance(value, dict) else _node(value, mark)
         if isinstance(value, dict):
             for key, one in value.items():
-                self._set(entry, key, one, mark)
+                if one is not None:  # None is what Python has for "not given"
+                    self._set(entry, key, one, mark)
         known.value.append(entry)
 
 

@@ -11,6 +11,7 @@ import yaml
 from ..yaml_map import Node, is_list, is_map
 from . import shapes
 from .lattice_reader import LatticeReader
+from .node_reader import OF_PYTHON
 from .shapes import Shape
 from .surfaces import ShapeFault, read_shape, shape_of, sound
 
@@ -23,7 +24,7 @@ class DataNode(yaml.ScalarNode):
     """A mesh of another library, in a scene that is made in Python."""
 
     def __init__(self, data: Any, mark: Any) -> None:
-        super().__init__("!mesh", f"<{type(data).__name__}>", mark, mark)
+        super().__init__(OF_PYTHON, "None" if data is None else f"<{type(data).__name__}>", mark, mark)
         self.data = data
 
 
@@ -127,7 +128,7 @@ class ShapeReader(LatticeReader):
         """Scaled, turned about its origin, by degrees about x, y and z or, in the plane, one angle, and moved."""
         points = shape.points
         if (scale := self.get(node, "scale")) is not None:
-            points = points * (self.length_of(scale, "scale") or 1.0)
+            points = points * (self.length_of(scale, "scale", "number") or 1.0)
         if (turn := self.get(node, "turn")) is not None:
             angles = [self.number(one, "turn") or 0.0 for one in turn.value] if is_list(turn) else [0.0, 0.0, self.number(turn, "turn") or 0.0]
             if len(angles) != 3 or (shape.dim == 2 and any(angles[:2])):

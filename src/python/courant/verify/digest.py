@@ -47,9 +47,14 @@ def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]
     return names
 
 
-def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> str:
+def without_comments(text: bytes) -> bytes:
+    """A deck without its lines of comment, which change no result."""
+    return b"".join(line for line in text.splitlines(keepends=True) if not line.startswith(b"$"))
+
+
+def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None, comments: bool = True) -> str:
     """Of a deck with the files that a run with these parameters may read: rather one too many than one too few, as of parameters that have several
-    values in it, or of several folders that hold a file of the name."""
+    values in it, or of several folders that hold a file of the name. `comments`: whether those of the deck itself count."""
     given = {name.upper(): text for name, text in (parameters or {}).items()}
     texts = {name: {text} for name, text in given.items()}
     names, found, waiting = set[str](), set[Path](), {deck}
@@ -64,7 +69,10 @@ def digest_of_deck(deck: Path, parameters: Mapping[str, str] | None = None) -> s
         folders = {Path(), *(file.parent for file in found), *(folder / name for folder in (Path(), deck.parent) for name in names)}
         paths = {Path(os.path.normpath(folder / name)) for folder in folders if folder.is_dir() for name in names}
         waiting = {path for path in paths if path.is_file()} - found
-    return digest_of_files(sorted(found))
+    if comments or not deck.is_file():
+        return digest_of_files(sorted(found))
+    note_input(deck)
+    return digest(without_comments(deck.read_bytes()), digest_of_files(sorted(found - {deck})))
 
 
 def digest_of_build(executable: Path) -> str:
