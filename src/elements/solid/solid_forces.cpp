@@ -187,15 +187,15 @@ class SolidForces : public Material,
   }
   void record(World&, const Clock&, EnergyLedger&) override {}
   void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
-    ledger.internal += total(internal_);
-    const Real hourglass = total(hourglass_);
-    ledger.hourglass += hourglass;
-    if (bends_by_assumed_strains()) ledger.assumed_bending += hourglass;
-    ledger.bulk_viscosity += total(bulk_viscosity_);
+    ledger.internal += total(internal_), ledger.bulk_viscosity += total(bulk_viscosity_);
+    ledger.hourglass += total(hourglass_), ledger.assumed_bending += assumed_bending();
   }
-  /// Whether hourglass forces are those of the bending of the material.
-  bool bends_by_assumed_strains() const {
-    return control_.hourglass == 6 && control_.QM == 1 && history_at(*law_, "plastic_strain") < 0;
+  /// Hourglass energy that is of bending: of elements that have not flowed, by forces as the material's.
+  Real assumed_bending() const {
+    if (control_.hourglass != 6 || control_.QM != 1) return 0;
+    const auto* plastic = dynamic_cast<const Field<Real>*>(group_.fields.find("plastic_strain"));
+    const auto at = [&](Index e) { return plastic && (*plastic)[e] > 0 ? 0 : hourglass_[e]; };
+    return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : at(e); });
   }
   void report_part(const World& world, std::vector<PartSums>& parts) const override {
     PartSums& out = parts[static_cast<std::size_t>(group_.part)];

@@ -70,6 +70,22 @@ TEST(SolidModes, WhatYieldedIsNotExamined) {
   EXPECT_LT(unresisted(cantilever(2, "", "Z", soft)), 0.05);
 }
 
+// The verdict counts that energy as internal: of plastic laws, too, where nothing flowed.
+TEST(SolidModes, BendingByAssumedStrainsCountsUntilTheMaterialFlows) {
+  const auto share = [](const std::string& law) {
+    auto s = test::simulation_of(cantilever(1, "*CONTROL_HOURGLASS\n6,1.0\n", "Z", law));
+    while (s->clock().t < 0.5) s->step(test::do_nothing);
+    s->sample("");
+    const EnergyLedger& energy = s->world().energy;
+    EXPECT_GT(energy.hourglass, 0) << law;
+    return energy.assumed_bending / energy.hourglass;
+  };
+  const std::string plastic = "*MAT_PLASTIC_KINEMATIC\n1,7.85e-6,210.0,0.0,";
+  EXPECT_EQ(share(beam_steel), 1);
+  EXPECT_EQ(share(plastic + "10.0,0.0,1.0\n"), 1);
+  EXPECT_LT(share(plastic + "1e-7,0.0,1.0\n"), 0.5);
+}
+
 TEST(SolidModes, TheMeasureIsTheSameOnAnyNumberOfThreadsAndAfterARestart) {
   test::expect_same_bits(cantilever(2, "", "Z", beam_steel), 400, 200);
 }
