@@ -35,12 +35,12 @@ def read_gauges(reader: SceneReader, root: Node, model: Model) -> None:
     last = reader.number(end, "end") if end is not None else None
     usual = (states if states is not None else last / 100 if last is not None else 0.0) / 10
     names: set[str] = set()
-    for entry in node.value:
+    for number, entry in enumerate(node.value, 1):
         if reader.is_map(entry, "- {name: p1, point: [0.1, 0.2]}", "a gauge"):
-            _read_gauge(reader, entry, usual, model, names)
+            _read_gauge(reader, entry, number, usual, model, names)
 
 
-def _read_gauge(reader: SceneReader, node: Node, usual: float, model: Model, names: set[str]) -> None:
+def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, model: Model, names: set[str]) -> None:
     reader.check_keys(node, "a gauge", _KEYS)
     before = reader.diagnostics.errors
     given = [kind for kind in _KINDS if reader.get(node, kind) is not None]
