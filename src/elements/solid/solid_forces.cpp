@@ -181,7 +181,6 @@ class SolidForces : public Material,
       for (PointReport& point : out.points) point.plastic = point.history[static_cast<std::size_t>(plastic)];
     return out;
   }
-
   void fill_fields(World&) override {
     if (full_) full_->average(stress_, history_);
   }
@@ -193,7 +192,8 @@ class SolidForces : public Material,
   /// Hourglass energy that is of bending: of elements that have not flowed, by forces as the material's.
   Real assumed_bending() const {
     if (control_.hourglass != 6 || control_.QM != 1) return 0;
-    const auto* plastic = dynamic_cast<const Field<Real>*>(group_.fields.find("plastic_strain"));
+    const int flow = plastic_strain_of(*law_);
+    const Field<Real>* plastic = flow < 0 ? nullptr : history_[static_cast<std::size_t>(flow)];
     const auto at = [&](Index e) { return plastic && (*plastic)[e] > 0 ? 0 : hourglass_[e]; };
     return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : at(e); });
   }
