@@ -34,7 +34,7 @@ struct Summary {
   std::string termination;              ///< "normal", "error", "interrupted", ...
   std::string reason;                   ///< in words
   std::string advice;                   ///< what to change, where the run stopped in error; may be empty
-  std::string verdict;                  ///< "sound", "doubtful", "broken"; empty: nobody has judged yet
+  std::string verdict;                  ///< "sound", "doubtful", "broken"; empty: not judged yet
   std::vector<std::string> verdict_reasons;  ///< what speaks against it
   VerdictLimits limits;
   Real time = 0;  ///< time reached [T]

@@ -275,6 +275,15 @@ def slack_of(times: Sequence[float] | np.ndarray) -> float:
     return 0.25 * float(times[-1] - times[0]) / (len(times) - 1) if len(times) > 1 else 0.0
 
 
+def find_ids(wanted: np.ndarray, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where these numbers are among the known ones, (n,), and whether they are there at all, (n,)."""
+    if not len(known):
+        return np.zeros(len(wanted), dtype=int), np.zeros(len(wanted), dtype=bool)
+    order = np.argsort(known, kind="stable")
+    at = order[np.minimum(np.searchsorted(known, wanted, sorter=order), len(known) - 1)]
+    return at, known[at] == wanted
+
+
 def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, with_particles: bool = True) -> list[StateFiles]:
     """The states in DIR/fields.pvd in order of time. Faults are told; then the list is empty."""
     folder = Path(folder)

@@ -14,6 +14,7 @@ from typing import Any, Union
 
 import numpy as np
 
+from .fields import find_ids
 from .units import MODEL_UNITS, Units
 from .words import Named
 
@@ -68,14 +69,10 @@ class LiveSet(Mapping[str, np.ndarray]):
     def index(self, ids: int | Sequence[int] | np.ndarray) -> np.ndarray:
         """Where the entities of these numbers are in the arrays now, (m,). Raises KeyError for one that is not there."""
         wanted = np.atleast_1d(np.asarray(ids, dtype=np.int64))
-        known = self.ids
-        order = np.argsort(known, kind="stable")
-        at = np.searchsorted(known, wanted, sorter=order)
-        found = order[np.minimum(at, len(known) - 1)] if len(known) else np.zeros(len(wanted), dtype=int)
-        missing = wanted[known[found] != wanted] if len(known) else wanted
-        if len(missing):
-            raise KeyError(f"{self.name} have no number {missing[0]}")
-        return found
+        at, there = find_ids(wanted, self.ids)
+        if not there.all():
+            raise KeyError(f"{self.name} have no number {wanted[~there][0]}")
+        return at
 
     def set_force(self, force: Numbers, ids: int | Sequence[int] | np.ndarray | None = None) -> None:
         """Force on each of these entities, or of all that are active, (3,) or (m, 3) [ML/T2], from the next step on until it is set again.

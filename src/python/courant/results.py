@@ -29,7 +29,7 @@ from .ascii_kinds import column_name
 from .binout import BinoutFault, BinoutFile, binout_files
 from .d3plot import D3plotFault, D3plotFile
 from .diagnostics import CourantError, Diagnostics
-from .fields import FieldFault, FieldFile, StateFiles, read_states
+from .fields import FieldFault, FieldFile, StateFiles, find_ids, read_states
 from .files import write_figure
 from .histories import HistoryFile
 from .optional import module
@@ -92,12 +92,8 @@ class Mesh:
         """Since the first state, (points, 3) [L]; NaN of points that it has not."""
         assert self._start is not None
         first = self if self._start == self.path else Mesh(self._start, self._units)
-        known = np.asarray(first["id"])
-        order = np.argsort(known, kind="stable")
-        ids = np.asarray(self["id"])
-        at = order[np.minimum(np.searchsorted(known, ids, sorter=order), len(known) - 1)] if len(known) else np.zeros(len(ids), int)
-        out = np.full((len(ids), 3), np.nan)
-        same = known[at] == ids if len(known) else np.zeros(len(ids), bool)
+        at, same = find_ids(np.asarray(self["id"]), np.asarray(first["id"]))
+        out = np.full((len(at), 3), np.nan)
         out[same] = self.points[same] - first.points[at[same]]
         return out
 
