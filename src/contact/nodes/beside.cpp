@@ -123,10 +123,18 @@ bool NodeContact::looks_at(const World& world, const ContactNode& n, const Vec& 
   return false;
 }
 
+bool NodeContact::is_of_solids(const ContactNode& n) const {
+  return n.first != n.last && std::none_of(own_.begin() + n.first, own_.begin() + n.last,
+                                           [](const OwnFace& own) { return own.two_sided; });
+}
+
 // A node that comes through a face only because its own surface is level with the one behind an edge of that
 // face: a floor under a block that slides on it. A node within a smooth surface never touches what stands
 // upright on that surface. Another, at the edge of a floor, is level with the surface behind the edge as far
-// as the nodes around both are deep. `q`, `normal`: of the face where the node meets it.
+// as the nodes around both are deep; of a solid none of whose faces is turned towards the touched one, as
+// deep as contact is at most: it has nothing to meet that face with, and where its nodes lie over edges it
+// comes through both faces in one step. The rim of shells has no faces of its own and may meet the face edge
+// on. `q`, `normal`: of the face where the node meets it.
 bool NodeContact::grazes(const World& world, Index i, Index touched, const Vec& q, const Vec& normal) const {
   const ContactNode& n = node(i);
   if (const Vec own = smooth_normal(world, n); !own.isZero()) return std::abs(own.dot(normal)) < upright;
@@ -137,6 +145,7 @@ bool NodeContact::grazes(const World& world, Index i, Index touched, const Vec& 
     for (const Index corner : own_[static_cast<std::size_t>(o)].node)
       deepest = std::max(deepest, depth_at(corner));
   const FaceCorners x = corners_of(f, world.nodes.x);
+  if (is_of_solids(n) && !looks_at(world, n, normal)) deepest = width;
   for (unsigned e = 0; e < static_cast<unsigned>(f.corners); ++e) {
     const auto ends = ends_of_edge(f, e);
     const Vec along = (x[ends[1]] - x[ends[0]]).normalized(), w = q - x[ends[0]];

@@ -75,6 +75,8 @@ struct Projection {
   bool within = false;      ///< the same, by more than rounding
   bool over = false;        ///< within the face, or beyond an edge by less than `edge_margin`
   unsigned beyond = 0;      ///< bit e: over, but beyond edge e (from corner e on) by more than rounding
+  /// Whether both are one point, within `tolerance`. [L]
+  bool meets(const Projection& other, Real tolerance) const { return (q - other.q).norm() <= tolerance; }
 };
 
 /// Unit normal of the plane along both diagonals.

@@ -185,6 +185,8 @@ class NodeContact : public Force,
   bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;
   bool move_on(const World& world, const Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot,
                bool inside) const;
+  bool go_along_edge(const World& world, const Block& b, const Vec& x, const Slots& slots, Slot& slot) const;
+  Projection rim_of(const World& world, const ContactFace& f, const Vec& x) const;
   void find_touches(const World& world, const Clock& clock, const Block& b, Index i, Slots& slots) const;
   bool arrives(const World& world, const Clock& clock, Index i, const Seen& seen, Slot& slot) const;
   bool is_smooth_at(const World& world, Index f, unsigned e) const;
@@ -193,6 +195,7 @@ class NodeContact : public Force,
   Vec normal_of(const World& world, const OwnFace& own) const;
   Vec smooth_normal(const World& world, const ContactNode& n) const;
   bool looks_at(const World& world, const ContactNode& n, const Vec& normal) const;
+  bool is_of_solids(const ContactNode& n) const;
   bool grazes(const World& world, Index i, Index touched, const Vec& q, const Vec& normal) const;
   template <class Face>
   bool is_there(const Face& f) const {

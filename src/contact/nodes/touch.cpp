@@ -213,15 +213,47 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
           (best_is_smooth > goes_on || (best_is_smooth == goes_on && !nearer(d, gap, best_d, best_gap))))
         continue;
       best = &seen, best_d = d, best_gap = gap, best_side = side, best_is_smooth = goes_on;
-    } else if (across) {
+    } else if (across && (!goes_on || rim_of(world, g, x).meets(slot.at, rounding * size_))) {
       (gap >= 0 || !(goes_on || rises) ? outside : wedge) = true;
     }
   }
-  if (!best || is_taken(slots, best->face) || (outside && !best_is_smooth))
-    return inside || past_edge(world, x, wedge && !outside, f.r + node(i).r, slot);
+  if (!best || is_taken(slots, best->face) || (outside && !best_is_smooth)) {
+    if (inside) return true;
+    if (!best) wedge = !go_along_edge(world, b, x, slots, slot) && wedge;
+    return past_edge(world, x, wedge && !outside, face(slot.face).r + node(i).r, slot);
+  }
   slot.face = best->face, slot.at = best->at, slot.gap = best_gap, slot.side = best_side;
   slot.n = slot.side * slot.at.n;
   return true;
+}
+
+// Beyond an outer edge, if by rounding alone, a node is within none of the faces along it: there it goes on
+// to the one that it is less far beside, so that it fades off the outer edge alone, not off the edges that
+// faces share.
+bool NodeContact::go_along_edge(const World& world, const Block& b, const Vec& x, const Slots& slots,
+                                Slot& slot) const {
+  const ContactFace& f = face(slot.face);
+  const auto beside = [&](const Projection& rim) {
+    const Vec w = x - rim.q;
+    return Vec(w - w.dot(rim.n) * rim.n).norm();
+  };
+  Real least = beside(slot.at) - rounding * size_;
+  bool found = false;
+  for (const Seen& seen : b.seen) {
+    const ContactFace& g = face(seen.face);
+    if (is_taken(slots, seen.face) || f.shared(g) == 0) continue;
+    const Projection rim = rim_of(world, g, x);
+    const Real along = slot.n.dot(rim.n), side = g.two_sided && along < 0 ? -1 : 1;
+    if (!(side * along > smooth && beside(rim) < least)) continue;
+    least = beside(rim), found = true;
+    slot.face = seen.face, slot.side = side, slot.at = rim;
+  }
+  if (found) slot.n = slot.side * slot.at.n;
+  return found;
+}
+
+Projection NodeContact::rim_of(const World& world, const ContactFace& f, const Vec& x) const {
+  return project_on_rim(corners_of(f, world.nodes.x), f.corners, x);
 }
 
 // In the wedge between two faces that meet at an inner edge (or of two thick ones at an outer one) the edge
