@@ -309,7 +309,7 @@ bool add_joints(const Deck& deck, const Model& model, std::shared_ptr<RigidBodie
     joints.push_back(joint);
   }
   if (!good || !diagnostics.ok()) return true;
-  const auto pass = std::make_shared<Joints>(std::move(joints), bodies, reader.exact());
+  const auto pass = std::make_shared<Joints>(std::move(joints), bodies, reader.exact(), model.tssfac);
   const auto [before, after, worst, misfits] = pass->make_start_consistent(world);
   if (!misfits.empty())
     deck.warning(

@@ -43,10 +43,11 @@ Index count_rows(const std::vector<Joint>& joints) {
 
 }  // namespace
 
-Joints::Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies, bool exact)
+Joints::Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies, bool exact, Real tssfac)
     : joints_(std::move(joints)),
       bodies_(std::move(bodies)),
       exact_(exact),
+      tssfac_(tssfac),
       springs_(static_cast<std::size_t>(count_rows(joints_))),
       force_(joints_.size(), Vec::Zero()),
       moment_(joints_.size(), Vec::Zero()) {
@@ -157,14 +158,16 @@ void Joints::factorise(const std::vector<JointRow>& rows, const Clock* clock, Re
   matrix_.factorise(free_, least);
 }
 
-// A tenth of what would make a joint of free bodies swing by one radian in a step.
+// A tenth of what would make a joint of free bodies swing by one radian in the first step that was allowed:
+// not in the step of now, or shorter steps would make stiffer joints.
 void Joints::add_springs(const std::vector<JointRow>& rows, const Clock& clock) {
   constexpr Real stiffness = 0.1, damping = 0.1;  // damping: of the critical one
+  const Real step = std::isfinite(first_allowed_) && first_allowed_ > 0 ? first_allowed_ : clock.dt;
   bool added = false;
   for (std::size_t j = 0; j < joints_.size(); ++j)
     for (Index k = first_row_[j]; joints_[j].yields && k < first_row_[j + 1]; ++k) {
       if (springs_.has(k) || !(free_[k] > 0)) continue;
-      const Real own = joints_[j].rps * stiffness / (free_[k] * clock.dt * clock.dt);
+      const Real own = joints_[j].rps * stiffness / (free_[k] * step * step);
       springs_.add(k, own, joints_[j].damp * 2 * damping * std::sqrt(own / free_[k]),
                    rows[static_cast<std::size_t>(k)].c);
       added = true;
@@ -367,8 +370,19 @@ void Joints::remember(const std::vector<JointRow>& rows, const Eigen::VectorXd& 
   }
 }
 
+// Limits of elements go with TSSFAC, which counts as 0.9 here.
+Real Joints::allowed_by_others(const World& world, const Clock& clock) const {
+  constexpr Real usual = 0.9;
+  Real out = std::numeric_limits<Real>::infinity();
+  for (TimeLimit* other : world.passes.all<TimeLimit>())
+    if (other != this)
+      out = std::min(out, (other->rings() ? usual / tssfac_ : 1) * other->limit(world, clock).dt);
+  return out;
+}
+
 // A body at whose arm r a joint pulls by F turns back as if by a spring F r about axes across r.
-TimeLimit::Limit Joints::limit(const World&, const Clock&) {
+TimeLimit::Limit Joints::limit(const World& world, const Clock& clock) {
+  if (first_allowed_ == 0) first_allowed_ = allowed_by_others(world, clock);
   std::vector<Real> rate2(bodies_->bodies().size(), 0);
   for (std::size_t j = 0; j < joints_.size(); ++j)
     for (const bool second : {false, true}) {
@@ -400,6 +414,7 @@ void Joints::keep(Archive& archive) {
   for (const Joint& joint : joints_) turned.insert(turned.end(), {joint.turned, joint.drive.start_rate});
   archive("turned", turned);
   springs_.keep(archive);
+  archive("first_allowed", first_allowed_);
   std::vector<int> yields;
   for (const Joint& joint : joints_) yields.push_back(joint.yields);
   archive("yields", yields);

@@ -31,8 +31,8 @@ class Joints : public BodyTies,
                public JointReporter,
                public EnergyTerm {
  public:
-  /// Refers to `bodies`. `exact`: none becomes a spring.
-  Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies, bool exact);
+  /// Refers to `bodies`. `exact`: none becomes a spring. `tssfac`: of the elements beside them.
+  Joints(std::vector<Joint> joints, std::shared_ptr<RigidBodies> bodies, bool exact, Real tssfac);
   std::string name() const override { return "joints"; }
   const std::vector<Joint>& all() const { return joints_; }
 
@@ -100,6 +100,7 @@ class Joints : public BodyTies,
   void factorise(const std::vector<JointRow>& rows, const Clock* clock, Real least);
   /// Gives springs to the rows of joints that yield and have none yet.
   void add_springs(const std::vector<JointRow>& rows, const Clock& clock);
+  Real allowed_by_others(const World& world, const Clock& clock) const;
   /// All joints of the mechanism of joint `at`, but motors and gears, yield from the next step on.
   void soften(std::size_t at);
   /// Joints of closed loops with a row that adds almost nothing to others.
@@ -128,6 +129,10 @@ class Joints : public BodyTies,
   std::vector<Joint> joints_;
   std::shared_ptr<RigidBodies> bodies_;
   bool exact_;
+  Real tssfac_;
+  /// What other passes allowed at first, whatever DTINIT and LCTM say: springs are stiff by this step, so
+  /// that shorter ones change nothing. 0: not known yet; infinite: nothing limits the step. [T]
+  Real first_allowed_ = 0;
   JointSprings springs_;
   std::vector<char> joined_;      ///< of each body, whether a joint holds it
   std::vector<Index> first_row_;  ///< of each joint, and the end

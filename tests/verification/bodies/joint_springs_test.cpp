@@ -47,6 +47,28 @@ JointDeck off_centre(Real off, const std::string& control) {
   return deck;
 }
 
+/// An elastic cube adrift beside the bodies, whose step is 0.9 of 2 ms with the usual TSSFAC.
+void add_cube(JointDeck& deck) {
+  std::string corners;
+  for (int k = 0; k < 8; ++k) {
+    const Real x = (k & 1) != ((k & 2) >> 1), y = (k & 2) / 2, z = (k & 4) / 4;
+    deck.nodes += fmt::format("{},{},{},{}\n", ++deck.node, 10 + 0.1 * x, 0.1 * y, 0.1 * z);
+    corners += fmt::format("{:8}", deck.node);
+  }
+  deck.elements += fmt::format("{:8}{:8}{}\n", 900, 900, corners);
+  deck.parts += "*PART\ncube\n900,1,900\n*MAT_ELASTIC\n900,1000.,2.5e6,0.\n";
+}
+
+/// The speed of the askew door after 6 s.
+Real speed_of_door(JointDeck deck, const std::string& steps) {
+  deck.more += steps;
+  auto s = simulation_of(deck.text(6));
+  while (s->clock().t < 6) s->step(do_nothing);
+  sample_energy(s->world(), s->clock());
+  EXPECT_LT(std::abs(s->world().energy.error()), 0.01) << steps;
+  return s->bodies()->bodies()[1].omega[2];
+}
+
 }  // namespace
 
 // Hinges askew by 2e-3 between two bodies in free space are springs.
@@ -106,6 +128,25 @@ TEST(JointSprings, ADoorWithHingesAskewGoesOnTurning) {
     auto locked = simulation_of(deck.text(6));
     while (locked->clock().t < 1) locked->step(do_nothing);
     EXPECT_LT(locked->bodies()->bodies().back().omega[2], 0.1) << "exact joints lock it " << beside;
+  }
+}
+
+// What springs brake is a matter of their stiffness, which stays the same while steps get shorter: by TSSFAC
+// where elements limit them, by LCTM where nothing deforms.
+TEST(JointSprings, DoNotGetStifferAsStepsGetShorter) {
+  JointDeck with_cube = askew_door(2e-3);
+  add_cube(with_cube);
+  std::vector<Real> by_tssfac, by_curve;
+  for (const Real part : {1.0, 0.5, 0.25}) {
+    by_tssfac.push_back(speed_of_door(with_cube, fmt::format("*CONTROL_TIMESTEP\n0.,{}\n", 0.9 * part)));
+    by_curve.push_back(speed_of_door(
+        askew_door(2e-3),
+        fmt::format("*CONTROL_TIMESTEP\n0.,,,,,9\n*DEFINE_CURVE\n9\n0.,{0}\n9.,{0}\n", 4e-3 * part)));
+  }
+  for (const auto& speeds : {by_tssfac, by_curve}) {
+    EXPECT_LT(speeds[2], 0.9) << "they brake";
+    EXPECT_NEAR(speeds[0], speeds[1], 0.005);
+    EXPECT_NEAR(speeds[0], speeds[2], 0.005);
   }
 }
 
