@@ -58,7 +58,7 @@ bool FailureRules::measures_strain() const {
 bool FailureRules::of_points() const {
   return law_limit < never || law_time < never || measures_strain() || most_pressure < never ||
          least_pressure > -never || principal_stress < never || mises < never || plastic_strain < never ||
-         impulse < never || time < never;
+         impulse < never || time < never || !deaths.empty();
 }
 
 int history_at(const StrengthLaw& law, const std::string& variable) {
@@ -98,6 +98,10 @@ Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int point
   const auto blocks = static_cast<std::size_t>(block_count(group.size()));
   dead_.assign(blocks, 0), newly_.resize(blocks), why_.resize(blocks);
   kept_.resize(static_cast<std::size_t>(group.size()));
+  if (!rules.deaths.empty()) death_.assign(static_cast<std::size_t>(group.size()), infinite);
+  for (Index e = 0; e < group.size() && !death_.empty(); ++e)
+    if (const auto death = rules.deaths.find(group.id[e]); death != rules.deaths.end())
+      death_[static_cast<std::size_t>(e)] = death->second;
 }
 
 void Erosion::declare(const World&, Accesses& a) const {
@@ -187,6 +191,8 @@ void Erosion::look(const FailingPoints& p) {
     if ((p.by_law && p.by_law[i] >= law_limit) || p.t >= rules_.law_time) failed[i] |= by_law;
     if (has_card && !(failed[i] & by_card)) {
       std::string why = failure_of(p, i);
+      if (!death_.empty() && p.t >= death_[static_cast<std::size_t>(p.begin + i)])
+        why = fmt::format("time {:.4g}", p.t);
       if (!why.empty()) {
         failed[i] |= by_card;
         why_[static_cast<std::size_t>(p.begin / block_size)].push_back({p.begin + i, std::move(why)});

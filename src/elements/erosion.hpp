@@ -2,6 +2,7 @@
 // Elements that fail are deleted: their stress and forces are gone, their mass stays with the nodes.
 #include <array>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct FailureRules {
   int points = 1;                                ///< NUMFIP; < 0: per cent of all
   int law_points = 0;  ///< how many points the law must take away, of layers that differ; 0: all
   StrengthLaw::LeastStep least_step;  ///< of the law: an element with a smaller one goes
+  std::map<Id, Real> deaths{};        ///< *DEFINE_ELEMENT_DEATH: by element [T]
   bool distorted = false;             ///< shells that turn inwards; who knows their places tells
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
@@ -50,6 +52,11 @@ struct FailureRules {
 std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
                                         const std::vector<std::shared_ptr<StrengthLaw>>& laws,
                                         Diagnostics& diagnostics);
+
+/// *DEFINE_ELEMENT_DEATH: times at which solids and shells are deleted, into the rules of their parts.
+/// Elements that nothing can take away are errors.
+void take_deaths(const Deck& deck, const Model& model, const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                 std::vector<FailureRules>& rules, Diagnostics& diagnostics);
 
 /// Whether a *MAT_ADD_EROSION is for this material.
 bool has_erosion_card(const Deck& deck, Id mid);
@@ -156,6 +163,7 @@ class Erosion {
   Field<Real>* first_step_ = nullptr;  ///< of each element; null: nobody asks for it [T]
   std::vector<Field<Real>*> vanishing_, weakening_;
   Real least_step_ = 0;
+  std::vector<Real> death_;                 ///< of each element, empty: none has one [T]
   std::vector<Index> dead_;                 ///< by block
   std::vector<std::vector<Failed>> newly_;  ///< by block
   std::vector<std::vector<Failed>> why_;    ///< what points failed by in this step, by block

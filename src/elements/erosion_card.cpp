@@ -135,6 +135,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
     if (model.parts[k].has_beam) continue;
     out[k].small_step = model.parts[k].has_solid ? erode % 10 != 0 : erode / 10 % 10 != 0 && model.dtmin > 0;
   }
+  take_deaths(deck, model, laws, out, diagnostics);
   return out;
 }
 

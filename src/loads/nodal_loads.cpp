@@ -59,7 +59,8 @@ class NodalLoadReader {
     const Curve* curve = curve_named(deck_, model_, card, "LCID", card.lcid, diagnostics_);
     if (!curve) return;
     load.curve = *curve;
-    if (card.dof == follower ? !read_follower(card, load) : !read_direction(card, load.direction)) return;
+    const bool follows = card.dof == follower || card.dof == follower_moment;
+    if (follows ? !read_follower(card, load) : !read_direction(card, load.direction)) return;
     load.turns = card.dof > follower;
     for (const Index n : load.nodes)
       if (load.turns && !turns_[static_cast<std::size_t>(n)])
@@ -95,7 +96,7 @@ class NodalLoadReader {
     deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
   }
 
-  /// DOF 4: along the normal of M1, M2, M3, at right hand.
+  /// DOF 4, and DOF 8 for a moment: along the normal of M1, M2, M3, at right hand.
   bool read_follower(const LoadNodeCard& card, NodalLoad& load) {
     load.follows.emplace();
     std::size_t k = 0;
@@ -126,9 +127,8 @@ class NodalLoadReader {
     const bool moment = card.dof >= 5 && card.dof <= 7 && has_rotations_;
     if ((card.dof < 1 || card.dof > 3) && !moment) {
       error(card, "DOF",
-            size == 8 ? fmt::format("a moment that follows its nodes (DOF {}) is not supported", card.dof)
-            : size >= 5 && size <= 7 ? fmt::format("a moment (DOF {}) is not supported", card.dof)
-                                     : fmt::format("expected 1, 2 or 3, got '{}'", card.dof),
+            size >= 5 && size <= 8 ? fmt::format("a moment (DOF {}) is not supported", card.dof)
+                                   : fmt::format("expected 1, 2 or 3, got '{}'", card.dof),
             "use DOF 1, 2, 3: a force along x, y, z; 4 follows M1, M2, M3");
       return false;
     }
@@ -151,7 +151,7 @@ class NodalLoadReader {
     return false;
   }
 
-  static constexpr int follower = 4;
+  static constexpr int follower = 4, follower_moment = 8;
   const Deck& deck_;
   const Model& model_;
   const World& world_;

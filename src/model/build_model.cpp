@@ -38,6 +38,7 @@ Model ModelBuilder::build() {
   build_local_boxes();
   build_sets();
   move_nodes();
+  move_parts();
   check_solids();
   check_beams();
   build_coordinate_systems();  // of nodes: where these have gone

@@ -81,6 +81,7 @@ class ModelBuilder {
   void warn_of_short_curves();
   // move_nodes.cpp
   void move_nodes();
+  void move_parts();
   // build_frames.cpp
   void build_local_boxes();
   void build_coordinate_systems();

@@ -23,6 +23,7 @@ constexpr ColumnKinds kinds[] = {
 
 const RegisterKeyword<T> define_transformation{define_transformation_table()};
 const RegisterKeyword<NodeTransformCard> node_transform{node_transform_table()};
+const RegisterKeyword<PartMoveCard> part_move{part_move_table()};
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// *NODE_TRANSFORM
+// *NODE_TRANSFORM, *PART_MOVE
 #include <fmt/format.h>
 #include <cmath>
 
@@ -17,6 +17,21 @@ bool any_names_nodes(const Deck& deck) {
 }
 
 }  // namespace
+
+/// A node that several parts of a set share moves once; those of one part that another part has, too, take
+/// the edge of that one with them.
+void ModelBuilder::move_parts() {
+  for (const PartMoveCard& card : deck_.all<PartMoveCard>()) {
+    std::vector<Index> parts;
+    if (card.ifset == 1) {
+      if (const std::vector<Index>* members = part_set(card, "PID", card.pid)) parts = *members;
+    } else if (const Index one = part(card, "PID", card.pid); one >= 0) {
+      parts = {one};
+    }
+    for (const Index n : nodes_of_parts(parts))
+      model_.nodes[static_cast<std::size_t>(n)].x += Vec(card.xmov, card.ymov, card.zmov);
+  }
+}
 
 /// In deck order. Numbers of a transformation count in the frame of the file that asks for the motion: if
 /// that file is moved itself, so is the motion.

@@ -50,6 +50,33 @@ TEST(LoadsByHand, ForcesAndMomentsAreAlongTheAxesOfTheirSystem) {
     }
 }
 
+// A plate turns by a quarter about x before a moment about its normal begins, which then is along -y or y.
+TEST(LoadsByHand, AFollowerMomentTurnsWithItsNodes) {
+  const auto plate = [](const std::string& load) {
+    ShellDeck deck;
+    deck.plate(1, 1, 2, 2, 1);
+    deck.part(1, 0.1, "*MAT_ELASTIC\n1,1000.0,1.0E9,0.3\n");
+    const Real omega = 0.5 * M_PI / 0.05;
+    deck.cards += fmt::format("*INITIAL_VELOCITY_GENERATION\n1,2,{:.10g}\n0.0,0.5,0.0,1.0,0.0,0.0\n", omega) +
+                  load + "*DEFINE_CURVE\n1\n0.0,0.0\n0.05,0.0\n0.0501,1.0\n9.0,1.0\n";
+    return simulation_of(deck.text(1));
+  };
+  const auto with = plate("*LOAD_NODE_POINT\n5,8,1,3.0,0,1,3,7\n"), without = plate("");
+  const auto rate = [](Simulation& s) {
+    return Vec(shared_fields::angular_velocity.find(s.world().nodes.fields)->vec(4));
+  };
+  while (with->clock().t < 0.05) with->step(do_nothing), without->step(do_nothing);
+  EXPECT_EQ(rate(*with), rate(*without)) << "no moment yet";
+  const Nodes& nodes = with->world().nodes;
+  const Vec normal = (nodes.x.vec(2) - nodes.x.vec(0)).cross(nodes.x.vec(6) - nodes.x.vec(0)).normalized();
+  ASSERT_LT(std::abs(normal[2]), 0.1) << "it has turned";
+  with->step(do_nothing), without->step(do_nothing);
+  with->step(do_nothing), without->step(do_nothing);
+  const Vec change = rate(*with) - rate(*without);
+  EXPECT_GT(change.dot(normal), 0);
+  EXPECT_LT(change.cross(normal).norm(), 0.02 * change.norm());
+}
+
 // A pressure of 2 (t - AT) from AT on presses on 0.04: the momentum of the free block is 0.04 (t - AT)^2.
 TEST(LoadsByHand, PressureBeginsWithItsCurveAtItsTime) {
   SolidDeck deck;
