@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "laws/strength/left_cauchy_green.hpp"
 #include "laws/strength/strength.hpp"
 #include "state/shared_fields.hpp"
 
@@ -167,10 +168,16 @@ struct WatchedSolids {
   }
 };
 
+/// What springs back at once: rubbers, too, which remember their stretches.
+bool is_elastic(const StrengthLaw& law) {
+  const auto history = law.history();
+  return history.empty() || history.front().name == left_cauchy_green.name;
+}
+
 bool is_examined(const SolidPart& p) {
   const StrengthLaw* law = p.law.get();
   return law && !p.full && !p.nodal && law->shear_modulus() > 0 && !law->axes() &&
-         (law->history().empty() || plastic_strain_of(*law) >= 0);
+         (is_elastic(*law) || plastic_strain_of(*law) >= 0);
 }
 
 class OfModes : public ShapeWatch {

@@ -25,8 +25,8 @@ Real bending_energy(const std::array<Vec, 8>& start, const SecondGradient& gradi
 /// `unresisted_modes`, the largest over the parts of what is missing over the energy of the part (internal,
 /// and of hourglass control with a stiffness), both summed over all looks [-], and `unresisted_modes_part`,
 /// its number. A beam of n elements over its depth misses 1/(n^2 - 1), by which it bends too far. Elements
-/// that yielded miss nothing; fluids, laws with directions and laws that are neither elastic nor plastic are
-/// not examined. Null: there are no such solids.
+/// that yielded miss nothing; fluids, laws with directions and laws that are neither elastic nor plastic
+/// (viscoelastic ones, foams) are not examined. Null: there are no such solids.
 std::shared_ptr<ShapeWatch> make_mode_watch(const std::vector<SolidPart>& parts, World& world);
 
 }  // namespace courant

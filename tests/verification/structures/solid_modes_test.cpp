@@ -52,6 +52,14 @@ TEST(SolidModes, ABeamMissesTheBendingOfItsElements) {
   EXPECT_NEAR(unresisted(cantilever(4, "", "Z", beam_steel)), 1.0 / 15, 0.005);
 }
 
+// Rubbers miss what an elastic law of the same moduli does.
+TEST(SolidModes, RubbersAreExamined) {
+  const Real elastic = unresisted(cantilever(2, "", "Z", "*MAT_ELASTIC\n1,7.85e-6,290.0,0.45\n"));
+  EXPECT_GT(elastic, 0.2);
+  const std::string mooney = "*MAT_MOONEY-RIVLIN_RUBBER\n1,7.85e-6,0.45,25.0,25.0\n";
+  EXPECT_NEAR(unresisted(cantilever(2, "", "Z", mooney)), elastic, 0.02 * elastic);
+}
+
 // What is held as the material holds it is not missing; along the beam nothing bends.
 TEST(SolidModes, NothingIsMissingOfWhatIsHeldOrDoesNotBend) {
   EXPECT_LT(unresisted(cantilever(2, "*CONTROL_HOURGLASS\n6,1.0\n", "Z", beam_steel)), 0.01);
