@@ -27,6 +27,7 @@ struct YieldStress {
 
   YieldRate rate() const { return depends_on; }
   bool steep() const { return depends_on == YieldRate::of_plastic_strain; }
+  bool smooth() const { return curves.size() == 1 && curves.front().size() == 1 && factor.empty(); }
   /// One curve and no rate: its pieces are walked through, on each of which the increment is linear.
   bool has_increments() const { return depends_on == YieldRate::none; }
   Real increment(Real q, Real e, Real three_g) const {

@@ -24,7 +24,7 @@ class PlasticKinematic : public StrengthLaw {
     rate_term_.C = a_.C, rate_term_.P = a_.C > 0 ? a_.P : 1;
     law_ = {.lambda = a_.lambda, .G = a_.G, .kinematic = a_.kinematic};
     if (a_.C > 0) law_.rate = a_.of_plastic_rate ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
-    law_.steep = law_.rate == YieldRate::of_plastic_strain;
+    law_.steep = law_.rate == YieldRate::of_plastic_strain, law_.smooth = true;
   }
   Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
   Real shear_modulus() const override { return a_.G; }

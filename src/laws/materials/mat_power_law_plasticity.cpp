@@ -23,6 +23,8 @@ struct PowerLaw {
     return viscous ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
   }
   bool steep() const { return true; }
+  // over all strain the rate enters by zz, with which the slope may be too small
+  bool smooth() const { return !rate_term.counts() || viscous; }
   bool has_increments() const { return false; }
   Real increment(Real, Real, Real) const { return 0; }
   void at(YieldPoints& points) const {

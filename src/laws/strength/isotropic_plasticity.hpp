@@ -10,15 +10,15 @@
 namespace courant {
 
 /// J2 plasticity with isotropic hardening beside Hooke's law. Yield declares the yield stress: at(points)
-/// fills in what YieldPoints asks for, rate() is the rate it depends on, steep() as of ReturnLaw. Where
-/// has_increments() is true, increment(q, e, three_g) is the increment of plastic strain of a trial state
-/// with q [M/LT2] and plastic strain e in space, 0 where it does not yield. [-]
+/// fills in what YieldPoints asks for, rate() is the rate it depends on, steep() and smooth() as of
+/// ReturnLaw. Where has_increments() is true, increment(q, e, three_g) is the increment of plastic strain of
+/// a trial state with q [M/LT2] and plastic strain e in space, 0 where it does not yield. [-]
 template <class Yield>
 class IsotropicPlasticity : public StrengthLaw {
  public:
   IsotropicPlasticity(Real density, Real E, Real nu, Yield yield) : yield_(std::move(yield)) {
     law_.lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), law_.G = E / (2 * (1 + nu));
-    law_.rate = yield_.rate(), law_.steep = yield_.steep();
+    law_.rate = yield_.rate(), law_.steep = yield_.steep(), law_.smooth = yield_.smooth();
     ro = density;
   }
   Real bulk_modulus() const override { return law_.lambda + 2 * law_.G / 3; }

@@ -22,6 +22,7 @@ struct ReturnLaw {
   /// The yield stress rises from its first value with an infinite slope, by a small power of plastic strain
   /// or rate: Newton's method then is one for the fourth root of x, in which such powers are nearly straight.
   bool steep = false;
+  bool smooth = false;  ///< the yield stress has no bend, over plastic strain or rate
   Real elastic_f() const { return G * (3 * lambda + 2 * G) / (3 * (lambda + 2 * G)) * 2; }
   Real of_f() const { return elastic_f() + 2.0 / 3 * kinematic; }
   Real of_g() const { return 2 * G + 2.0 / 3 * kinematic; }
@@ -40,6 +41,7 @@ struct ReturnPoints {
   Real trial_q[block_size];                   ///< in space [M/LT2]
   // in the plane
   Real P[block_size], S[block_size];             ///< [M2/L2T4]
+  Real per_q[block_size];                        ///< 1/q at x [LT2/M]
   Real sum[block_size];                          ///< xx + yy of the trial stress less the back stress [M/LT2]
   Real zz[block_size];                           ///< rate zz of an elastic step [1/T]
   Real still[block_size], straight[block_size];  ///< rate^2 = still + straight zz + curved zz^2, zz a rate
@@ -51,14 +53,15 @@ struct ReturnLoops {
   void (*go)(const ReturnLaw& law, const PointBlock& block, ReturnPoints& r);
   /// q, plastic strain, rate and their slopes at x; `before`: plastic strain before the step.
   void (*measure)(const ReturnLaw& law, Real dt, const Real* before, ReturnPoints& r);
+  /// x by Newton's method between its bounds; whether there are points that were not close. `round` counts
+  /// from 0, where x is 0.
+  bool (*approach)(const ReturnLaw& law, int round, ReturnPoints& r);
   /// In the plane, the trial stress as well; `sum` is xx + yy of the stress before. `alpha`: the back stress
   /// by component, null where it stays 0.
   void (*go_in_plane)(const ReturnLaw& law, const PointBlock& block, Real* const* alpha, Real* sum,
                       ReturnPoints& r);
   void (*measure_in_plane)(const ReturnLaw& law, Real dt, const Real* before, ReturnPoints& r);
-  /// x by Newton's method between its bounds; whether there are points that were not close. `round` counts
-  /// from 0, where x is 0.
-  bool (*approach)(const ReturnLaw& law, int round, ReturnPoints& r);
+  bool (*approach_in_plane)(const ReturnLaw& law, int round, ReturnPoints& r);
   /// Stress, back stress and plastic strain at m; `rate_zz` has the sum before, and gets the rate without
   /// which there would be a stress zz. [1/T]
   void (*settle)(const ReturnLaw& law, const PointBlock& block, Real* const* alpha, Real* rate_zz,
@@ -67,15 +70,15 @@ struct ReturnLoops {
 /// For the machine the program runs on.
 ReturnLoops return_loops();
 
-/// x of all points. `yield(points)` fills in what YieldPoints declares.
-template <class Measure, class Yield>
-void find_return(const ReturnLoops& loops, const ReturnLaw& law, const Measure& measure, const Yield& yield,
-                 ReturnPoints& r) {
+/// x of all points, by functions that go through a round: `measure()`, `yield(points)`, which fills in what
+/// YieldPoints declares, and `approach(round)`.
+template <class Measure, class Yield, class Approach>
+void find_return(const Measure& measure, const Yield& yield, const Approach& approach, ReturnPoints& r) {
   constexpr int rounds = 100;
   for (int k = 0; k < rounds; ++k) {
     measure();
     yield(r.at);
-    if (!loops.approach(law, k, r)) break;
+    if (!approach(k)) break;
   }
 }
 
@@ -91,8 +94,8 @@ void find_increments(const ReturnLoops& loops, const ReturnLaw& law, const Point
   r.at.count = block.count;
   std::copy_n(trial.q, block.count, r.trial_q);
   loops.go(law, block, r);
-  find_return(
-      loops, law, [&] { loops.measure(law, block.dt, before, r); }, yield, r);
+  find_return([&] { loops.measure(law, block.dt, before, r); }, yield,
+              [&](int round) { return loops.approach(law, round, r); }, r);
   std::copy_n(r.x, block.count, trial.plastic);
 }
 
@@ -103,8 +106,8 @@ void update_in_plane(const ReturnLoops& loops, const ReturnLaw& law, const Point
   ReturnPoints r;
   r.at.count = block.count;
   loops.go_in_plane(law, block, alpha, rate_zz, r);
-  find_return(
-      loops, law, [&] { loops.measure_in_plane(law, block.dt, block.history[0], r); }, yield, r);
+  find_return([&] { loops.measure_in_plane(law, block.dt, block.history[0], r); }, yield,
+              [&](int round) { return loops.approach_in_plane(law, round, r); }, r);
   loops.settle(law, block, alpha, rate_zz, r);
 }
 

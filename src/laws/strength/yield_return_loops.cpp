@@ -109,8 +109,8 @@ void measure_in_plane(const ReturnLaw& law, Real dt, const Real* before, ReturnP
     const Real per_f = 1 + of_f * r.x[i], per_g = 1 + of_g * r.x[i], both = 1 / (per_f * per_g);
     const Real f = per_g * both, g = per_f * both;
     const Real p = r.P[i] * f * f, s = r.S[i] * g * g, q = std::sqrt(p + s);
-    const Real fall = (p * f * of_f + s * g * of_g) / (q > none ? q : none);
-    r.q[i] = q, r.fall[i] = fall;
+    const Real per_q = 1 / (q > none ? q : none), fall = (p * f * of_f + s * g * of_g) * per_q;
+    r.q[i] = q, r.fall[i] = fall, r.per_q[i] = per_q;
     r.at.plastic[i] = before[i] + 2.0 / 3 * r.x[i] * q;
     r.grow[i] = 2.0 / 3 * (q - r.x[i] * fall);
   }
@@ -135,11 +135,14 @@ void measure_in_plane(const ReturnLaw& law, Real dt, const Real* before, ReturnP
   }
 }
 
-/// The next x of a point: Newton's method, or where that leads out of the bounds a step between them.
-template <bool steep, bool of_rate>
+/// The next x of a point: Newton's method, or where that leads out of the bounds a step between them. In the
+/// plane with q as q(x)/(1 + c (x' - x)), which it is where the stress keeps its direction.
+template <bool plane, bool steep, bool of_rate>
 COURANT_INLINE Real next_x(const ReturnPoints& r, Index i, Real over, Real low, Real high) {
-  const Real x = r.x[i], hardening = r.at.by_strain[i] * r.grow[i];
-  Real slope = r.fall[i] + hardening, newton, middle = 0.5 * (low + high);
+  const Real x = r.x[i], yield = r.at.stress[i];
+  Real fall = r.fall[i], rise = r.at.by_strain[i] * r.grow[i], middle = 0.5 * (low + high);
+  if (plane) fall *= yield * r.per_q[i];
+  Real slope = fall + rise, newton;
   if constexpr (!steep && !of_rate) {
     newton = x + over / (slope > none ? slope : none);
   } else {
@@ -149,11 +152,11 @@ COURANT_INLINE Real next_x(const ReturnPoints& r, Index i, Real over, Real low, 
     slope = slope > least ? slope : 0.5 * still;
     slope = slope > none ? slope : none;
     // a slope that is not above any before the root; the chord from the lower bound
-    const Real softer = hardening > 0 ? r.fall[i] : (still > none ? still : none);
+    const Real softer = rise > 0 ? fall : (still > none ? still : none);
     const Real divisor = over > 0 ? softer : r.excess[i] - over, at = x > 0 ? x : 1;
     // one division for all three: it takes as long as ten other operations
-    const Real all = 1 / (slope * divisor * at);
-    const Real step = over * (all * divisor * at), part = all * slope * at, per_x = all * slope * divisor;
+    const Real all = 1 / (slope * divisor * at), per_slope = all * divisor * at;
+    const Real step = over * per_slope, part = all * slope * at, per_x = all * slope * divisor;
     newton = x + step;
     Real share = r.excess[i] * part;
     if (steep) {
@@ -169,16 +172,17 @@ COURANT_INLINE Real next_x(const ReturnPoints& r, Index i, Real over, Real low, 
     middle = over > 0 ? middle : low + (x - low) * share;
   }
   const Real within = newton >= low && newton <= high ? newton : middle;
-  return r.at.stress[i] > 0 ? within : high;  // softening has left no strength
+  return yield > 0 ? within : high;  // softening has left no strength
 }
 
-template <bool steep, bool of_rate>
-bool approach(int round, ReturnPoints& r) {
+template <bool plane, bool steep, bool of_rate>
+bool approach(bool smooth, int round, ReturnPoints& r) {
   constexpr Real round_off = 1e-15;
   // before the last step, which squares it where yield stresses have no bend
-  constexpr Real close = steep || of_rate ? 1e-9 : 1e-7, near = 1e-6;
-  constexpr int quick =
-      12;  // beyond, every second step halves the interval, whatever the yield stress is like
+  const Real close = smooth ? 1e-7 : 1e-9;
+  constexpr Real near = 1e-6;
+  // beyond, every second step halves the interval, whatever the yield stress is like
+  constexpr int quick = 12;
   const Real halved = round > quick && round % 2 == 0 ? near : 1 / none;
   Real most = 0;
 #pragma omp simd reduction(max : most)
@@ -187,7 +191,7 @@ bool approach(int round, ReturnPoints& r) {
     const Real low = over > 0 ? r.x[i] : r.low[i], high = over > 0 ? r.high[i] : r.x[i];
     if (steep || of_rate) r.excess[i] = over > 0 ? over : r.excess[i];
     const Real scale = yield + r.least[i];
-    Real next = next_x<steep, of_rate>(r, i, over, low, high);
+    Real next = next_x<plane, steep, of_rate>(r, i, over, low, high);
     if (steep || of_rate) next = size > halved * scale ? 0.5 * (low + high) : next;
     const bool open = high > low && size > round_off * scale;
     r.low[i] = low, r.high[i] = high;
@@ -208,11 +212,14 @@ void hold_first(ReturnPoints& r) {
   }
 }
 
+template <bool plane>
 bool approach_any(const ReturnLaw& law, int round, ReturnPoints& r) {
   if (law.rate == YieldRate::none)
-    return law.steep ? approach<true, false>(round, r) : approach<false, false>(round, r);
-  if (!law.steep) return approach<false, true>(round, r);
-  const bool goes_on = approach<true, true>(round, r);
+    return law.steep ? approach<plane, true, false>(law.smooth, round, r)
+                     : approach<plane, false, false>(true, round, r);
+  // slopes are not those of the rate zz everywhere, so that the last step squares nothing
+  if (!law.steep) return approach<plane, false, true>(false, round, r);
+  const bool goes_on = approach<plane, true, true>(law.smooth, round, r);
   if (round == 0 && law.rate == YieldRate::of_plastic_strain) hold_first(r);
   return goes_on;
 }
@@ -259,7 +266,9 @@ void settle_any(const ReturnLaw& law, const PointBlock& block, Real* const* alph
 }  // namespace
 
 ReturnLoops return_loops() {
-  return {&go, &measure, &go_in_any_plane, &measure_in_plane, &approach_any, &settle_any};
+  return {
+      &go,        &measure, &approach_any<false>, &go_in_any_plane, &measure_in_plane, &approach_any<true>,
+      &settle_any};
 }
 
 }  // namespace courant::COURANT_SIMD
