@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
+#include "base/indexed_pieces.hpp"
 #include "laws/failure/thinning_failure.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/hardening.hpp"
 #include "laws/strength/isotropic_plasticity.hpp"
-#include "laws/strength/radial_return.hpp"
-#include "laws/strength/root_below.hpp"
+#include "laws/strength/rate_factor.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
@@ -17,56 +17,87 @@ namespace {
 
 /// Yield stress over effective plastic strain and a rate. [M/LT2]
 struct YieldStress {
-  enum class Rate { none, of_strain, of_deviator, of_plastic_strain } rate = Rate::none;
-  std::vector<Hardening> curves;  ///< one, or of a table one for each of `rates`
-  std::vector<Real> rates{};      ///< increasing [1/T], or their logarithms
+  YieldRate depends_on = YieldRate::none;
+  std::vector<IndexedPieces> curves{};  ///< one, or of a table one for each of `rates`
+  std::vector<Real> rates{};            ///< increasing [1/T], or their logarithms
   bool logarithmic = false;
-  Real C = 0, P = 1;  ///< of Cowper and Symonds [1/T], [-]; C = 0: none
-  Real added = 0;     ///< what (rate/C)^(1/P) is a factor of; 0: of the yield stress [M/LT2]
-  Curve factor{};     ///< LCSR, over the rate; empty: none
+  CowperSymonds rate_term{};
+  Real added = 0;          ///< what (rate/C)^(1/P) is a factor of; 0: of the yield stress [M/LT2]
+  IndexedPieces factor{};  ///< LCSR, over the rate; empty: none
 
-  bool needs_rate() const { return rate != Rate::none; }
-  Real at_rest(Real e, Real& slope) const {
-    const Real y = curves.front().at(e, slope);
-    if (y < 0) slope = 0;
-    return std::max(y, Real(0));
-  }
-  /// Where the rate counts by one factor for all plastic strains.
-  bool is_scaled() const { return curves.size() == 1 && !(added > 0 && C > 0); }
-  Real scale(Real r) const {
-    if (!factor.abscissa.empty()) return factor(r);
-    return C > 0 ? 1 + std::pow(r / C, 1 / P) : 1;
-  }
-  Real at(Real e, Real r) const {
-    if (curves.size() > 1) return between(e, logarithmic ? std::log(r) : r);
-    const Real y = curves.front().at(e);
-    return added > 0 && C > 0 ? y + added * std::pow(r / C, 1 / P) : scale(r) * y;
-  }
-  Real increment(const PointBlock& block, Index i, Real q, Real e, Real three_g) const {
-    const Real most = q / three_g;  // where softening leaves no strength, not beyond
-    if (rate == Rate::of_plastic_strain && block.dt > 0) {
-      if (!(q > std::max(at(e, 0), Real(0)))) return 0;
-      return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, de / block.dt); });
+  YieldRate rate() const { return depends_on; }
+  bool steep() const { return depends_on == YieldRate::of_plastic_strain; }
+  bool smooth() const { return curves.size() == 1 && curves.front().size() == 1 && factor.empty(); }
+  /// One curve and no rate: its pieces are walked through, on each of which the increment is linear.
+  bool has_increments() const { return depends_on == YieldRate::none; }
+  Real increment(Real q, Real e, Real three_g) const {
+    const IndexedPieces& curve = curves.front();
+    std::size_t k = curve.piece(e);
+    if (!(q > std::max(curve.of_piece(k, e), Real(0)))) return 0;
+    for (;; ++k) {
+      const Real de = (q - curve.of_piece(k, e)) / (three_g + curve.slope(k));
+      // where softening leaves no strength, not beyond
+      if (!curve.ends_before(k, e + de)) return std::min(de, q / three_g);
     }
-    const Real at_rate = rate == Rate::none || rate == Rate::of_plastic_strain
-                             ? 0
-                             : effective_rate(block, i, rate == Rate::of_deviator);
-    if (!(q > std::max(at(e, at_rate), Real(0)))) return 0;
-    if (is_scaled()) return std::min(curves.front().increment(q, three_g, e, scale(at_rate)), most);
-    return root_below(most, [&](Real de) { return q - three_g * de - strength(e + de, at_rate); });
+  }
+
+  void at(YieldPoints& points) const {
+    if (curves.size() > 1) {
+      of_table(points);
+    } else {
+      const IndexedPieces& curve = curves.front();
+      for (Index i = 0; i < points.count; ++i)
+        points.stress[i] = curve(points.plastic[i], points.by_strain[i]);
+      if (added > 0 && rate_term.counts())
+        rate_loops_.add(rate_term, added, points);
+      else if (!factor.empty())
+        scale(points);
+      else if (rate_term.counts())
+        rate_loops_.scale(rate_term, points);
+    }
+    if (vanishes()) limit(points);
   }
 
  private:
-  Real strength(Real e, Real r) const { return std::max(at(e, r), Real(0)); }
-  /// Of a table: straight between curves, constant beyond the first and the last.
-  Real between(Real e, Real r) const {
-    const auto above = std::upper_bound(rates.begin(), rates.end(), r);
-    if (above == rates.begin()) return curves.front().at(e);
-    if (above == rates.end()) return curves.back().at(e);
-    const auto k = static_cast<std::size_t>(above - rates.begin());
-    const Real share = (r - rates[k - 1]) / (rates[k] - rates[k - 1]);
-    return (1 - share) * curves[k - 1].at(e) + share * curves[k].at(e);
+  /// Softening goes on beyond the last point of a curve, down to no strength.
+  bool vanishes() const {
+    return std::any_of(curves.begin(), curves.end(),
+                       [](const IndexedPieces& c) { return !c.empty() && c.slope(c.size() - 1) < 0; });
   }
+  void limit(YieldPoints& points) const {
+    for (Index i = 0; i < points.count; ++i) {
+      if (points.stress[i] >= 0) continue;
+      points.stress[i] = points.by_strain[i] = points.by_rate[i] = 0;
+    }
+  }
+  void scale(YieldPoints& points) const {
+    for (Index i = 0; i < points.count; ++i) {
+      Real slope;
+      const Real by = factor(points.rate[i], slope);
+      points.by_rate[i] = points.stress[i] * slope;
+      points.stress[i] *= by, points.by_strain[i] *= by;
+    }
+  }
+  /// Of a table: straight between curves, constant beyond the first and the last.
+  void of_table(YieldPoints& points) const {
+    Real logarithm[block_size];
+    if (logarithmic) rate_loops_.logarithm(points.count, points.rate, logarithm);
+    for (Index i = 0; i < points.count; ++i) {
+      const Real e = points.plastic[i], r = logarithmic ? logarithm[i] : points.rate[i];
+      std::size_t k = 0;
+      while (k < rates.size() && r >= rates[k]) ++k;
+      const IndexedPieces &below = curves[k > 0 ? k - 1 : 0], &above = curves[std::min(k, rates.size() - 1)];
+      points.stress[i] = below(e, points.by_strain[i]), points.by_rate[i] = 0;
+      if (&below == &above) continue;
+      Real slope;
+      const Real higher = above(e, slope), width = rates[k] - rates[k - 1],
+                 share = (r - rates[k - 1]) / width;
+      points.by_rate[i] = (higher - points.stress[i]) / (logarithmic ? width * points.rate[i] : width);
+      points.stress[i] += share * (higher - points.stress[i]);
+      points.by_strain[i] += share * (slope - points.by_strain[i]);
+    }
+  }
+  RateLoops rate_loops_ = rate_loops();
 };
 
 using M = struct MatPiecewiseLinearPlasticity;
@@ -82,26 +113,31 @@ struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
     return found == model.curves.end() ? Curve() : found->second;
   }
   static Hardening of_curve(const Curve& curve) { return {curve.abscissa, curve.ordinate}; }
+  static IndexedPieces pieces_of(const Hardening& points) { return {points.strain, points.stress}; }
   bool has_table(const Model& model) const { return lcss != 0 && model.tables.count(lcss) > 0; }
 
   std::shared_ptr<StrengthLaw> law(const Model& model) const {
-    using Rate = YieldStress::Rate;
     YieldStress yield;
     if (has_table(model)) {
       const Table& t = model.tables.at(lcss);
-      for (const Id id : t.curve) yield.curves.push_back(of_curve(curve_of(model, id)));
+      for (const Id id : t.curve) yield.curves.push_back(pieces_of(of_curve(curve_of(model, id))));
       yield.rates = t.value;
       yield.logarithmic = !t.value.empty() && t.value.front() < 0;
     } else {
       Hardening one = lcss != 0 ? of_curve(curve_of(model, lcss)) : table();
       if (lcss == 0 && one.strain.empty()) one = {{0, 1}, {sigy, sigy + E * etan / (E - etan)}};
-      yield.curves.push_back(std::move(one));
-      yield.C = c, yield.P = c > 0 ? p : 1;
+      yield.curves.push_back(pieces_of(one));
+      yield.rate_term.C = c, yield.rate_term.P = c > 0 ? p : 1;
       if (vp == 1) yield.added = sigy;
-      if (lcsr != 0) yield.factor = curve_of(model, std::abs(lcsr));
+      if (lcsr != 0) {
+        const Curve factor = curve_of(model, std::abs(lcsr));
+        yield.factor = IndexedPieces(factor.abscissa, factor.ordinate, IndexedPieces::Beyond::constant);
+      }
     }
     if (yield.curves.size() > 1 || c > 0 || lcsr != 0)
-      yield.rate = vp == 1 ? Rate::of_plastic_strain : vp == -1 ? Rate::of_deviator : Rate::of_strain;
+      yield.depends_on = vp == 1    ? YieldRate::of_plastic_strain
+                         : vp == -1 ? YieldRate::of_deviator
+                                    : YieldRate::of_strain;
     auto law = std::make_shared<IsotropicPlasticity<YieldStress>>(ro, E, pr, std::move(yield));
     if (fail > 0 && fail < never_fails) law->fails_at = fail;
     law->shortest_step = tdel;

@@ -5,9 +5,10 @@
 
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/linear_hardening.hpp"
-#include "laws/strength/plane_return.hpp"
 #include "laws/strength/radial_return.hpp"
+#include "laws/strength/rate_factor.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/yield_return.hpp"
 
 namespace courant {
 
@@ -18,7 +19,13 @@ namespace {
 /// return have no branches, so that they go through registers of several points.
 class PlasticKinematic : public StrengthLaw {
  public:
-  PlasticKinematic(Real density, const LinearHardening& data) : a_(data) { ro = density; }
+  PlasticKinematic(Real density, const LinearHardening& data) : a_(data) {
+    ro = density;
+    rate_term_.C = a_.C, rate_term_.P = a_.C > 0 ? a_.P : 1;
+    law_ = {.lambda = a_.lambda, .G = a_.G, .kinematic = a_.kinematic};
+    if (a_.C > 0) law_.rate = a_.of_plastic_rate ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
+    law_.steep = law_.rate == YieldRate::of_plastic_strain, law_.smooth = true;
+  }
   Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
   Real shear_modulus() const override { return a_.G; }
   Real failure_limit() const override { return a_.fails_at; }
@@ -37,16 +44,10 @@ class PlasticKinematic : public StrengthLaw {
     keep_stiffness(block, sound_speed());
   }
 
-  /// Without back stress and rates by the multiplier alone.
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
-    if (a_.kinematic > 0 || a_.C > 0 || !(block.dt > 0))
-      return StrengthLaw::update_in_plane_stress(block, rate_zz);
-    update_in_plane(in_plane_, {a_.lambda, a_.G}, block, rate_zz,
-                    [this](Index count, const Real* e, Real* Y, Real* h) {
-#pragma omp simd
-                      for (Index i = 0; i < count; ++i)
-                        Y[i] = a_.yield + a_.isotropic * e[i], h[i] = a_.isotropic;
-                    });
+    if (!(block.dt > 0)) return StrengthLaw::update_in_plane_stress(block, rate_zz);
+    update_in_plane(loops_, law_, block, a_.kinematic > 0 ? block.history.data() + 1 : nullptr, rate_zz,
+                    [this](YieldPoints& points) { at(points); });
     keep_stiffness(block, sound_speed());
   }
 
@@ -64,10 +65,7 @@ class PlasticKinematic : public StrengthLaw {
     const Real stiffness = 3 * a_.G + a_.isotropic + a_.kinematic;
     Real* plastic = block.history[0];
     if (a_.C > 0 && block.dt > 0)
-      for (Index i = 0; i < block.count; ++i)
-        trial.plastic[i] = a_.of_plastic_rate
-                               ? overstressed(trial.q[i], plastic[i], block.dt)
-                               : faster(trial.q[i], plastic[i], effective_rate(block, i, true));
+      find_increments(loops_, law_, block, plastic, trial, [this](YieldPoints& points) { at(points); });
     else
 #pragma omp simd
       for (Index i = 0; i < block.count; ++i)
@@ -76,36 +74,19 @@ class PlasticKinematic : public StrengthLaw {
     for (Index i = 0; i < block.count; ++i) plastic[i] += trial.plastic[i];
   }
 
-  /// sigma_y = (1 + (rate/C)^(1/P)) (SIGY + BETA Ep e): linear in the increment.
-  Real faster(Real q, Real plastic, Real rate) const {
-    const Real scale = 1 + std::pow(rate / a_.C, 1 / a_.P);
-    const Real over = q - scale * (a_.yield + a_.isotropic * plastic);
-    return over > 0 ? over / (3 * a_.G + a_.kinematic + scale * a_.isotropic) : 0;
-  }
-  /// The same with the rate of plastic strain, de/dt. In u = (de/(C dt))^(1/P) the excess
-  ///   q - (3 G + (1 - BETA) Ep) de - (1 + u) (SIGY + BETA Ep (e + de)),  de = C dt u^P,
-  /// falls without a kink: Newton's method, held between bounds, from the answer without the rate.
-  Real overstressed(Real q, Real plastic, Real dt) const {
-    const Real yield = a_.yield + a_.isotropic * plastic, stiffness = 3 * a_.G + a_.kinematic;
-    if (!(q > yield)) return 0;
-    const Real scale = a_.C * dt, most = (q - yield) / (stiffness + a_.isotropic);
-    Real low = 0, high = std::pow(most / scale, 1 / a_.P), u = high;
-    constexpr int rounds = 100;
-    constexpr Real close = 1e-14;
-    for (int k = 0; k < rounds; ++k) {
-      const Real de = scale * std::pow(u, a_.P), slope = u > 0 ? a_.P * de / u : 0;
-      const Real excess = q - stiffness * de - (1 + u) * (yield + a_.isotropic * de);
-      (excess > 0 ? low : high) = u;
-      const Real fall = stiffness * slope + yield + a_.isotropic * (de + (1 + u) * slope);
-      const Real newton = u + excess / fall, before = u;
-      u = newton >= low && newton <= high ? newton : 0.5 * (low + high);
-      if (std::abs(u - before) <= close * u) break;
-    }
-    return scale * std::pow(u, a_.P);
+  /// sigma_y = (1 + (rate/C)^(1/P)) (SIGY + BETA Ep e)
+  void at(YieldPoints& points) const {
+#pragma omp simd
+    for (Index i = 0; i < points.count; ++i)
+      points.stress[i] = a_.yield + a_.isotropic * points.plastic[i], points.by_strain[i] = a_.isotropic;
+    if (a_.C > 0) rates_.scale(rate_term_, points);
   }
 
   LinearHardening a_;
-  PlaneReturnLoops in_plane_ = plane_return_loops();
+  CowperSymonds rate_term_;
+  ReturnLaw law_;
+  ReturnLoops loops_ = return_loops();
+  RateLoops rates_ = rate_loops();
 };
 
 struct MatPlasticKinematic : MatPlasticKinematicFields {

@@ -5,8 +5,7 @@
 
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/isotropic_plasticity.hpp"
-#include "laws/strength/radial_return.hpp"
-#include "laws/strength/root_below.hpp"
+#include "laws/strength/rate_factor.hpp"
 #include "laws/strength/strength.hpp"
 
 namespace courant {
@@ -15,27 +14,24 @@ namespace {
 
 /// sigma_y = K (e0 + e)^N, with the influence of the rate by Cowper and Symonds.
 struct PowerLaw {
-  Real K = 0, N = 0;     ///< [M/LT2], [-]
-  Real e0 = 0;           ///< strain at which yielding begins [-]
-  Real C = 0, P = 0;     ///< [1/T], [-]; C = 0: none
-  bool viscous = false;  ///< VP: the rate is that of plastic strain
-  bool needs_rate() const { return C > 0; }
-  Real at_rest(Real e, Real& slope) const {
-    const Real y = K * std::pow(e0 + e, N);
-    slope = N * y / (e0 + e);
-    return y;
+  Real K = 0, N = 0;          ///< [M/LT2], [-]
+  Real e0 = 0;                ///< strain at which yielding begins [-]
+  CowperSymonds rate_term{};  ///< of the deviator, or with `viscous` (VP) of plastic strain
+  bool viscous = false;
+  YieldRate rate() const {
+    if (!rate_term.counts()) return YieldRate::none;
+    return viscous ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
   }
-  Real at(Real e, Real rate) const {
-    return K * std::pow(e0 + e, N) * (C > 0 ? 1 + std::pow(rate / C, 1 / P) : 1);
+  bool steep() const { return true; }
+  // over all strain the rate enters by zz, with which the slope may be too small
+  bool smooth() const { return !rate_term.counts() || viscous; }
+  bool has_increments() const { return false; }
+  Real increment(Real, Real, Real) const { return 0; }
+  void at(YieldPoints& points) const {
+    loops.power_law(K, e0, N, points);
+    if (rate_term.counts()) loops.scale(rate_term, points);
   }
-  Real increment(const PointBlock& block, Index i, Real q, Real e, Real three_g) const {
-    const bool by_plastic_rate = viscous && C > 0 && block.dt > 0;
-    const Real rate = C > 0 && !by_plastic_rate ? effective_rate(block, i, true) : 0;
-    if (!(q > at(e, rate))) return 0;
-    return root_below(q / three_g, [&](Real de) {
-      return q - three_g * de - at(e + de, by_plastic_rate ? de / block.dt : rate);
-    });
-  }
+  RateLoops loops = rate_loops();
 };
 
 using Power = struct MatPowerLawPlasticity;
@@ -48,8 +44,9 @@ struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
     return sigy > 0 ? sigy : std::pow(E / k, 1 / (n - 1));
   }
   std::shared_ptr<StrengthLaw> law() const {
-    auto law = std::make_shared<IsotropicPlasticity<PowerLaw>>(
-        ro, E, pr, PowerLaw{.K = k, .N = n, .e0 = first_strain(), .C = src, .P = srp, .viscous = vp == 1});
+    PowerLaw yield{.K = k, .N = n, .e0 = first_strain(), .viscous = vp == 1};
+    yield.rate_term.C = src, yield.rate_term.P = src > 0 ? srp : 1;
+    auto law = std::make_shared<IsotropicPlasticity<PowerLaw>>(ro, E, pr, yield);
     if (epsf > 0 && epsf < never_fails) law->fails_at = epsf;
     return law;
   }

@@ -3,25 +3,26 @@
 #include <utility>
 #include <vector>
 
-#include "laws/strength/plane_return.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
+#include "laws/strength/yield_return.hpp"
 
 namespace courant {
 
-/// J2 plasticity with isotropic hardening beside Hooke's law: s_tr = s + 2 G dev(D) dt is returned along
-/// itself to q = q_tr - 3 G de = yield stress at e + de. Yield has increment(block, i, q, e, three_g): the de
-/// of point i, whose trial state has q [M/LT2] and plastic strain e; 0 where it does not yield. [-]
-/// Where needs_rate() is false the yield stress at e and its slope are at_rest(e, slope). [M/LT2]
+/// J2 plasticity with isotropic hardening beside Hooke's law. Yield declares the yield stress: at(points)
+/// fills in what YieldPoints asks for, rate() is the rate it depends on, steep() and smooth() as of
+/// ReturnLaw. Where has_increments() is true, increment(q, e, three_g) is the increment of plastic strain of
+/// a trial state with q [M/LT2] and plastic strain e in space, 0 where it does not yield. [-]
 template <class Yield>
 class IsotropicPlasticity : public StrengthLaw {
  public:
-  IsotropicPlasticity(Real density, Real E, Real nu, Yield yield)
-      : lambda_(E * nu / ((1 + nu) * (1 - 2 * nu))), shear_(E / (2 * (1 + nu))), yield_(std::move(yield)) {
+  IsotropicPlasticity(Real density, Real E, Real nu, Yield yield) : yield_(std::move(yield)) {
+    law_.lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), law_.G = E / (2 * (1 + nu));
+    law_.rate = yield_.rate(), law_.steep = yield_.steep(), law_.smooth = yield_.smooth();
     ro = density;
   }
-  Real bulk_modulus() const override { return lambda_ + 2 * shear_ / 3; }
-  Real shear_modulus() const override { return shear_; }
+  Real bulk_modulus() const override { return law_.lambda + 2 * law_.G / 3; }
+  Real shear_modulus() const override { return law_.G; }
   std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
   Real failure_limit() const override { return fails_at; }
   LeastStep least_step() const override { return {shortest_step, 0}; }
@@ -30,29 +31,30 @@ class IsotropicPlasticity : public StrengthLaw {
 
   void update(const PointBlock& block) const override {
     PlasticTrial trial;
-    go_elastically(lambda_, shear_, block, FixedCentre{}, trial);
+    go_elastically(law_.lambda, law_.G, block, FixedCentre{}, trial);
     Real* plastic = block.history[0];
-    for (Index i = 0; i < block.count; ++i) {
-      trial.plastic[i] = yield_.increment(block, i, trial.q[i], plastic[i], 3 * shear_);
-      plastic[i] += trial.plastic[i];
-    }
+    if (yield_.has_increments())
+      for (Index i = 0; i < block.count; ++i)
+        trial.plastic[i] = yield_.increment(trial.q[i], plastic[i], 3 * law_.G);
+    else
+      find_increments(loops_, law_, block, plastic, trial,
+                      [this](YieldPoints& points) { yield_.at(points); });
+    for (Index i = 0; i < block.count; ++i) plastic[i] += trial.plastic[i];
     constexpr Real none = 1e-300;  // there is no increment where q is 0
-    return_radially(shear_, 0, none, block, FixedCentre{}, trial);
+    return_radially(law_.G, 0, none, block, FixedCentre{}, trial);
     keep_stiffness(block, sound_speed());
   }
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
-    if (yield_.needs_rate() || !(block.dt > 0)) return StrengthLaw::update_in_plane_stress(block, rate_zz);
-    update_in_plane(in_plane_, {lambda_, shear_}, block, rate_zz,
-                    [this](Index count, const Real* e, Real* Y, Real* h) {
-                      for (Index i = 0; i < count; ++i) Y[i] = yield_.at_rest(e[i], h[i]);
-                    });
+    if (!(block.dt > 0)) return StrengthLaw::update_in_plane_stress(block, rate_zz);
+    update_in_plane(loops_, law_, block, nullptr, rate_zz,
+                    [this](YieldPoints& points) { yield_.at(points); });
     keep_stiffness(block, sound_speed());
   }
 
  private:
-  Real lambda_, shear_;
+  ReturnLaw law_;
   Yield yield_;
-  PlaneReturnLoops in_plane_ = plane_return_loops();
+  ReturnLoops loops_ = return_loops();
 };
 
 }  // namespace courant

@@ -20,6 +20,14 @@ struct SheetPoints {
 
   /// `generic`: by trial steps, whatever the law knows.
   void step(const StrengthLaw& law, Real dt, bool generic) {
+    std::fill(rate[2], rate[2] + count, 1e3);  // must not be looked at
+    if (generic)
+      law.StrengthLaw::update_in_plane_stress(block_of(law, dt), rate_zz);
+    else
+      law.update_in_plane_stress(block_of(law, dt), rate_zz);
+  }
+  void step_in_space(const StrengthLaw& law, Real dt) { law.update(block_of(law, dt)); }
+  PointBlock block_of(const StrengthLaw& law, Real dt) {
     PointBlock block;
     block.count = count, block.dt = dt, block.sound_speed = speed;
     for (std::size_t k = 0; k < 6; ++k) block.rate[k] = rate[k], block.stress[k] = stress[k];
@@ -28,11 +36,7 @@ struct SheetPoints {
     kept.clear();
     for (std::size_t k = 0; k < numbers; ++k) kept.push_back(history[k]);
     block.history = kept;
-    std::fill(rate[2], rate[2] + count, 1e3);  // must not be looked at
-    if (generic)
-      law.StrengthLaw::update_in_plane_stress(block, rate_zz);
-    else
-      law.update_in_plane_stress(block, rate_zz);
+    return block;
   }
   void fill_rates(Real size) {
     for (int k = 0; k < 6; ++k)
@@ -170,6 +174,70 @@ TEST(PlaneStress, TheMultiplierGivesWhatTrialStepsGive) {
         for (int k = 0; k < 6; ++k) EXPECT_NEAR(a.stress[k][i], b.stress[k][i], 1e-9) << name << k;
       }
       EXPECT_GT(plastic, 10);
+    }
+  }
+  use_instruction_set(instruction_sets().back());
+}
+
+// The plane against space: with the rate zz that the plane leaves, the law in space answers with the same
+// stress and none across. Every influence of the rate, with and without back stress, curves with bends, a
+// small power of plastic strain; steps from 1e-4 of the yield strain to tens of it.
+TEST(PlaneStress, RatesGiveTheStressOfSpace) {
+  const std::string curve = "*DEFINE_CURVE\n1\n0.0,0.25\n0.01,0.3\n0.1,0.36\n1.0,0.5\n";
+  const std::string factor = "*DEFINE_CURVE\n2\n0.0,1.0\n0.01,1.2\n0.1,1.5\n10.0,2.0\n";
+  const std::string table =
+      "*DEFINE_CURVE\n3\n0.0,0.4\n1.0,0.6\n*DEFINE_TABLE_2D\n4\n0.01,1\n1.0,3\n*DEFINE_TABLE_2D\n5\n-4.0,"
+      "1\n0.0,3\n";
+  const std::string soft = "*DEFINE_CURVE\n6\n0.0,0.25\n0.02,0.3\n0.5,0.2\n1.0,0.2\n",
+                    elastic = "1,7.85e-6,207.0,0.3,";
+  const char *multilinear = "MAT_PIECEWISE_LINEAR_PLASTICITY", *kinematic = "MAT_PLASTIC_KINEMATIC";
+  const char *power = "MAT_POWER_LAW_PLASTICITY", *johnson_cook = "MAT_SIMPLIFIED_JOHNSON_COOK";
+  const std::pair<const char*, std::string> laws[] = {
+      {multilinear, elastic + "0.251,0.5\n0.04,5.0\n"},
+      {multilinear, elastic + "0.251,0.5\n0.04,5.0,,,-1\n"},
+      {multilinear, elastic + "0.251,0.5\n0.04,5.0,,,1\n"},
+      {multilinear, elastic + "\n0.04,5.0,1,,1\n\n\n" + curve},
+      {multilinear, elastic + "\n0.04,5.0,6,,1\n\n\n" + soft},
+      {multilinear, elastic + "\n,,1,2,0\n\n\n" + curve + factor},
+      {multilinear, elastic + "\n,,1,2,1\n\n\n" + curve + factor},
+      {multilinear, elastic + "\n,,4,,0\n\n\n" + curve + table},
+      {multilinear, elastic + "\n,,4,,1\n\n\n" + curve + table},
+      {multilinear, elastic + "\n,,5,,1\n\n\n" + curve + table},
+      {kinematic, elastic + "0.251,5.5,0.3\n"},
+      {kinematic, elastic + "0.251,5.5,0.3\n0.04,5.0,,0\n"},
+      {kinematic, elastic + "0.251,5.5,0.3\n0.04,5.0,,1\n"},
+      {power, elastic + "0.6,0.2,0.04,5.0\n"},
+      {power, elastic + "0.6,0.2,0.04,5.0\n0.3,1\n"},
+      {johnson_cook, elastic + "0\n0.25,0.3,0.3,0.02,,,,0.001\n"},
+      {johnson_cook, elastic + "1\n0.25,0.3,0.3,0.02,,,,0.001\n"},
+      {johnson_cook, elastic + "1\n0.25,0.3,0.3,0.02,,0.35,0.38,0.001\n"}};
+  for (const InstructionSet set : instruction_sets()) {
+    use_instruction_set(set);
+    for (const auto& [name, cards] : laws) {
+      const auto law = test::law_from_cards(name, cards);
+      SheetPoints plane;
+      int plastic = 0;
+      Real most_apart = 0;
+      for (int n = 0; n < 120; ++n) {
+        const Real size = std::pow(10.0, -3 + n % 5), turn = 0.1 * (n / 5);
+        for (int k = 0; k < 6; ++k)
+          for (Index i = 0; i < SheetPoints::count; ++i)
+            plane.rate[k][i] = size * (0.01 + (i % 4) / 3.0) * std::sin(1.0 + 3 * k + 0.37 * i + turn);
+        SheetPoints space = plane;
+        plane.step(*law, 2e-3, false);
+        std::copy_n(plane.rate_zz, SheetPoints::count, space.rate[2]);
+        space.step_in_space(*law, 2e-3);
+        Real largest = 0;
+        for (Index i = 0; i < SheetPoints::count; ++i) largest = std::max(largest, mises(plane, i));
+        for (Index i = 0; i < SheetPoints::count; ++i) {
+          plastic += plane.history[0][i] > 0;
+          for (int k = 0; k < 6; ++k)
+            most_apart = std::max(most_apart, std::abs(plane.stress[k][i] - space.stress[k][i]) / largest);
+          most_apart = std::max(most_apart, std::abs(plane.history[0][i] - space.history[0][i]));
+        }
+      }
+      EXPECT_GT(plastic, 1000) << name << cards;
+      EXPECT_LT(most_apart, 1e-9) << name << cards;
     }
   }
   use_instruction_set(instruction_sets().back());
