@@ -84,3 +84,31 @@ def test_faults() -> None:
         mesh_of(x, 2, 0.1, cell=1e-6)
     with pytest.raises(NoSurface, match="between 0 and 1"):
         mesh_of(x, 2, 0.1, level=1.0)
+
+
+def test_states_and_recipes_give_it(tmp_path: Path) -> None:
+    import courant
+    from courant.diagnostics import Diagnostics
+    from courant.post import run_post
+    from made_runs import frame
+    from made_runs import lattice as water
+    from made_runs import write_run
+
+    write_run(tmp_path, [frame(water(x1=1.0, y1=0.1), t=0.1 * s, v=lambda x, y: x) for s in range(3)], "still water")
+    state = courant.open(tmp_path).states[-1]
+    mesh = state.surface_mesh(["velocity"])
+    assert mesh.dim == 2 and mesh.volume() == pytest.approx(0.1, rel=0.02) and mesh.values["velocity"].shape == (len(mesh.points), 3)
+    left = state.surface_mesh(where=state.points[:, 0] < 0.5)
+    assert left.volume() == pytest.approx(0.05, rel=0.02) and left.points[:, 0].max() < 0.52
+    recipe = tmp_path / "recipe.yaml"
+    recipe.write_text("analyses:\n  - {kind: surface_mesh, name: level, of: [vx], from: 0.1}\n")
+    diagnostics = Diagnostics()
+    assert run_post(recipe, tmp_path, lambda _: None, diagnostics), diagnostics.text()
+    head, *rows = (tmp_path / "post" / "level.csv").read_text().splitlines()
+    assert head == "t [s],area [m2],length [m],lines [-]" and len(rows) == 2
+    assert float(rows[0].split(",")[1]) == pytest.approx(0.1, rel=0.02)
+    assert len(list((tmp_path / "post" / "level").glob("*.vtp"))) == 2 and 'timestep="0.1"' in (tmp_path / "post" / "level.pvd").read_text()
+    for entry, message in (("level: 1.2", "'level.level' must be below 1"), ("where: 0", "no state has a surface: there is no particle"), ("celll: 1", "unknown key 'celll'")):
+        recipe.write_text(f"analyses:\n  - {{kind: surface_mesh, name: level, {entry}}}\n")
+        diagnostics = Diagnostics()
+        assert not run_post(recipe, tmp_path, lambda _: None, diagnostics) and message in diagnostics.text(), diagnostics.text()

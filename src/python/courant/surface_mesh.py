@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .files import OutputError
+from .files import OutputError, write_file
 from .optional import module
 
 _CELL = 0.7  # of the grid over the smallest spacing of the particles, if no cell is given
@@ -77,10 +77,11 @@ class SurfaceMesh:
     def write(self, file: str | PathLike[str]) -> None:
         """A .vtp file. Raises MissingModule, OutputError."""
         writer = module("vtkmodules.vtkIOXML").vtkXMLPolyDataWriter()
-        writer.SetFileName(str(file))
         writer.SetInputData(self.vtk())
+        writer.WriteToOutputStringOn()
         if not writer.Write():
             raise OutputError(Path(file), OSError("VTK's writer failed"))
+        write_file(Path(file), writer.GetOutputString().encode())
 
 
 def surface_mesh(x: np.ndarray, volume: np.ndarray, h: np.ndarray, dim: int, *, cell: float | None = None, level: float = 0.5, width: float = 0.75,
