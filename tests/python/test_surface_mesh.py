@@ -108,7 +108,7 @@ def test_states_and_recipes_give_it(tmp_path: Path) -> None:
     assert head == "t [s],area [m2],length [m],lines [-]" and len(rows) == 2
     assert float(rows[0].split(",")[1]) == pytest.approx(0.1, rel=0.02)
     assert len(list((tmp_path / "post" / "level").glob("*.vtp"))) == 2 and 'timestep="0.1"' in (tmp_path / "post" / "level.pvd").read_text()
-    for entry, message in (("level: 1.2", "'level.level' must be below 1"), ("where: 0", "no state has a surface: there is no particle"), ("celll: 1", "unknown key 'celll'")):
+    for entry, message in (("level: 1.2", "'level.level' must be below 1"), ("where: 0", "no state has a surface: there is no particle"), ("celll: 1", "'level' does not know the key 'celll'")):
         recipe.write_text(f"analyses:\n  - {{kind: surface_mesh, name: level, {entry}}}\n")
         diagnostics = Diagnostics()
         assert not run_post(recipe, tmp_path, lambda _: None, diagnostics) and message in diagnostics.text(), diagnostics.text()
