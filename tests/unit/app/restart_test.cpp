@@ -106,7 +106,7 @@ TEST(Restart, PaddleThatAbsorbs) {
       "*ELEMENT_SHELL\n8,8,8001,8002,8003,8004\n*PART\npaddle\n8,8,8\n*SECTION_SHELL\n8,2\n0.05\n"
       "*MAT_RIGID\n8,7850.,2.1E11,0.3\n1,3,4\n*DEFINE_CURVE\n11\n0.,0.\n0.1,0.02\n1.,0.01\n"
       "*COURANT_WAVE_MAKER\n8,1,11,1.,11,0.65\n-0.025,0.,0.,1.,0.,0.\n1.,0.15,0.01,0.5\n"
-      "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,8,3,3\n0.\n";
+      "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,8,3,3\n0.\n1.\n";
   expect_same({.extra = test::gravity_cards + test::floor_cards() + paddle}, {0, 1, 30, 75}, 120);
 }
 

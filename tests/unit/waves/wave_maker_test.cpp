@@ -7,6 +7,7 @@
 
 #include "../app/small_scene.hpp"
 #include "base/run_error.hpp"
+#include "parallel/parallel.hpp"
 #include "rigid/bodies/rigid.hpp"
 
 namespace courant {
@@ -117,6 +118,20 @@ TEST(WaveMaker, StopsBeyondItsLimitAndWithoutWater) {
   auto dry = scene_with("2,0,0,1.,12,0.6\n0.,0.,0.,1.,0.,0.\n1.,3.");
   ASSERT_TRUE(dry);
   EXPECT_THROW(test::run(*dry, 0.01), RunError);
+}
+
+TEST(WaveMaker, HasTheSameBitsOnAnyNumberOfThreads) {
+  Vec at[2];
+  for (const int k : {0, 1}) {
+    set_threads(k == 0 ? 1 : 3);
+    auto s = scene_with("2,1,11,1.,12,0.65\n0.,0.,0.,1.,0.,0.\n1.,0.2,0.001,0.,0.5");
+    ASSERT_TRUE(s);
+    test::steps(*s, 60);
+    at[k] = paddle_of(*s).x;
+  }
+  set_threads(1);
+  EXPECT_EQ(at[0], at[1]);
+  EXPECT_NE(at[0], Vec(0, 0.4, 0));
 }
 
 // Nothing else acts along x on a paddle that touches nothing: its work is its kinetic energy, and from
