@@ -16,9 +16,6 @@
 namespace courant {
 namespace {
 
-// Of gauges, which may be hundreds at short intervals, small ones, as a chunk that is not whole is packed
-// whole, and packed fast: packing else took longer than measuring.
-constexpr std::size_t chunk_rows_of_gauge = 256;
 constexpr std::size_t chunk_rows = 1024;                     // what HDF5 packs at a time
 constexpr std::size_t most_buffered = std::size_t{1} << 22;  // numbers, 32 MiB
 
@@ -164,16 +161,14 @@ class HistoryFile {
   }
 
   hid_t create(const std::string& path, int rank, const hsize_t* size) {
-    const bool of_gauge = !gauge_of(path).empty();
-    const hsize_t longest[] = {H5S_UNLIMITED, size[1]},
-                  chunk[] = {of_gauge ? chunk_rows_of_gauge : chunk_rows, rank == 1 ? 1 : size[1]};
+    const hsize_t longest[] = {H5S_UNLIMITED, size[1]}, chunk[] = {chunk_rows, rank == 1 ? 1 : size[1]};
     const double missing = std::numeric_limits<double>::quiet_NaN();
     Hdf5Handle space(H5Screate_simple(rank, size, longest), H5Sclose),
         options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
     H5Pset_chunk(options, rank, chunk);
     H5Pset_fill_value(options, H5T_NATIVE_DOUBLE, &missing);
     H5Pset_shuffle(options);
-    H5Pset_deflate(options, of_gauge ? 1 : 4);
+    H5Pset_deflate(options, 4);
     H5Pset_create_intermediate_group(links, 1);
     return H5Dcreate2(file_, path.c_str(), H5T_IEEE_F64LE, space, links, options, H5P_DEFAULT);
   }
