@@ -14,6 +14,7 @@ namespace courant {
 
 struct GaugeBox {
   Vec low = Vec::Zero(), high = Vec::Zero();
+  bool operator==(const GaugeBox& other) const { return low == other.low && high == other.high; }
 };
 
 /// What a gauge sees of the world at t^n.
@@ -52,9 +53,20 @@ class Gauge {
   Real interval_;
 };
 
-/// Particles near each of the gauges, ascending.
-std::vector<std::vector<Index>> particles_near(const GaugeView& view,
-                                               const std::vector<std::vector<GaugeBox>>& boxes);
+class GaugeCells;
+
+/// Finds the particles near gauges. Keeps the grid of their boxes for the next call, in which gauges that do
+/// not move have the same ones.
+class NearParticles {
+ public:
+  /// Near each of the gauges, ascending.
+  std::vector<std::vector<Index>> find(const GaugeView& view, std::vector<std::vector<GaugeBox>> boxes);
+
+ private:
+  std::vector<std::vector<GaugeBox>> boxes_;
+  Real reach_ = 0;  ///< largest of the particles [L]
+  std::shared_ptr<const GaugeCells> cells_;
+};
 
 /// A straight line from `begin` to `end` [L].
 struct GaugeLine {
@@ -94,6 +106,7 @@ class Gauges : public Pass {
   std::vector<std::unique_ptr<Gauge>> gauges_;
   KernelChoice kernel_;
   BodyAcceleration loads_;
+  mutable NearParticles near_;
 };
 
 }  // namespace courant

@@ -33,8 +33,6 @@ void GaugeLine::cover(Real piece, std::vector<GaugeBox>& boxes) const {
   }
 }
 
-namespace {
-
 /// Cells of a grid, each with the gauges that some box of theirs touches.
 class GaugeCells {
  public:
@@ -104,15 +102,17 @@ class GaugeCells {
   std::vector<std::vector<std::size_t>> gauges_;
 };
 
-}  // namespace
-
-std::vector<std::vector<Index>> particles_near(const GaugeView& view,
-                                               const std::vector<std::vector<GaugeBox>>& boxes) {
+std::vector<std::vector<Index>> NearParticles::find(const GaugeView& view,
+                                                    std::vector<std::vector<GaugeBox>> boxes) {
   std::vector<std::vector<Index>> near(boxes.size());
   const Index n = view.world.particles.active;
   if (n == 0) return near;
   const Real reach = maximum(n, [&](Index i) { return view.reach(i); });
-  const GaugeCells cells(boxes, reach, view.world.dim);
+  if (!cells_ || boxes != boxes_ || reach != reach_) {
+    boxes_ = std::move(boxes), reach_ = reach;
+    cells_ = std::make_shared<const GaugeCells>(boxes_, reach_, view.world.dim);
+  }
+  const GaugeCells& cells = *cells_;
   if (cells.empty()) return near;
   std::vector<std::pair<std::size_t, Index>> found;
   collect(n, found, [&](Index begin, Index end, std::vector<std::pair<std::size_t, Index>>& to) {
@@ -133,7 +133,7 @@ std::vector<GaugeSample> Gauges::measure(World& world, const Clock& clock,
   const GaugeView view{world, kernel_, bodies, forces, loads_.at(clock.t)};
   std::vector<std::vector<GaugeBox>> boxes(which.size());
   for (std::size_t k = 0; k < which.size(); ++k) gauges_[which[k]]->cover(view, boxes[k]);
-  const auto near = particles_near(view, boxes);
+  const auto near = near_.find(view, std::move(boxes));
   std::vector<GaugeSample> out(which.size());
   for_each(static_cast<Index>(which.size()), [&](Index k) {
     const auto n = static_cast<std::size_t>(k);

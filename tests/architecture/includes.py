@@ -26,6 +26,7 @@ MAY_INCLUDE = {
     "output": ["state"],
     "d3plot": ["elements", "rigid", "extension", "output"],
     "gauges": ["sph", "rigid", "extension", "output"],
+    "waves": ["gauges", "sph", "rigid", "extension"],
     "time": ["state", "search", "output"],
     "vtk": ["state", "output"],
 }

@@ -47,7 +47,7 @@ def test_all_faults_at_once_with_their_places(tmp_path):
         assert expected in text, expected
 
 
-KINDS = "probe, surface, grid, profile, spectrum, flux, history, force, toe, roller, jump_type, drop_regime, gauges, correlation, mass_balance, soundness"
+KINDS = "probe, surface, grid, profile, spectrum, flux, history, force, toe, roller, jump_type, drop_regime, gauges, correlation, mass_balance, soundness, surface_mesh"
 
 
 @pytest.mark.parametrize(

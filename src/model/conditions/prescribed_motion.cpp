@@ -54,6 +54,7 @@ Real rise(const Curve& curve, Real a, Real b) {
 }
 
 Real PrescribedMotion::velocity(Real t, Real dt, Real dt_old, Real before) const {
+  if (source) return source->velocity(component);
   const Real end = t + dt - birth, start = t - birth, from = std::max(start, Real(0));
   switch (kind) {
     case Kind::velocity:

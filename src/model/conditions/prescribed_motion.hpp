@@ -8,6 +8,14 @@
 
 namespace courant {
 
+/// Velocities that the run itself finds for the coming step, for motions without a curve.
+class MotionSource {
+ public:
+  virtual ~MotionSource() = default;
+  /// 0 to 2: along x, y, z [L/T]; 3 to 5: about them [1/T]
+  virtual Real velocity(int component) const = 0;
+};
+
 /// One direction of one card. The curve's abscissa is t - BIRTH.
 struct PrescribedMotion {
   enum class Kind { velocity, acceleration, displacement };
@@ -28,6 +36,8 @@ struct PrescribedMotion {
   Id body = 0;                   ///< _RIGID: a part or a body of nodes; 0: none
   Index part = -1;               ///< index of that part into Model::parts; -1: a body of nodes, or not there
   Entry card;                    ///< for messages
+  const MotionSource* source = nullptr;  ///< of the velocities instead of a curve; null: the curve
+  int component = 0;                     ///< of `source`
 
   /// Whether the step from t to t + dt follows it: its middle is not before BIRTH and before DEATH.
   bool drives(Real t, Real dt) const {

@@ -33,6 +33,7 @@ from .fields import FieldFault, FieldFile, StateFiles, find_ids, read_states
 from .files import write_figure
 from .histories import HistoryFile
 from .optional import module
+from .surface_mesh import NoSurface, SurfaceMesh, surface_mesh
 from .tables import Table, table_of
 from .units import MODEL_UNITS, Dimension, Units, units_of_summary
 from .words import Named
@@ -203,6 +204,19 @@ class RunState(Mesh):
         """Shells and solids, each file once."""
         found = {mesh.path: mesh for mesh in (self.shells, self.solids) if mesh is not None}
         return list(found.values())
+
+    def surface_mesh(self, values: Sequence[str] = (), where: np.ndarray | None = None, *, cell: float | None = None, level: float = 0.5) -> SurfaceMesh:
+        """The surface of the water: triangles in space, lines in the plane. `values`: arrays whose means it gets at its points; `where`: (particles,) of
+        bool, which of them are water; `cell` of the grid [L]; `level`: share of the water at the surface. Raises NoSurface, MissingModule, KeyError."""
+        if self.particles is None:
+            raise NoSurface("the state has no particles")
+        V, dim = self["mass"] / self["density"], 2 if np.ptp(self.points[:, 2]) == 0 else 3
+        some = np.ones(len(self), dtype=bool) if "active" not in self.names else self["active"] > 0
+        some &= True if where is None else np.asarray(where, dtype=bool)
+        given = {name: np.asarray(self[name], dtype=float)[some] for name in values}
+        x = self.points[some]
+        x[:, 2] *= dim == 3
+        return surface_mesh(x, V[some].astype(float), self["smoothing_length"][some].astype(float), dim, cell=cell, level=level, values=given, t=self.t)
 
     def plot(self, field: str = "", file: str | Path | None = None, **keys: Any) -> Any:
         """A picture of the state by a field: plane flows filled, scenes in space rendered. `keys`: as of Results.plot. Gives matplotlib's figure, and

@@ -1,8 +1,9 @@
-"""Waves of a piston: the displacement that makes them, by linear theory and beyond, as numbers over time.
+"""Waves of a piston or a flap: the displacement that makes them, by linear theory and beyond, as numbers over time.
 
 made = Waves("regular", depth=0.5, height=0.08, period=1.4)
-made.displacement(end=20)    # (n, 2): time, displacement of the piston towards the water
+made.displacement(end=20)    # (n, 2): time, displacement of the paddle at the still level, towards the water
 made.elevation(x=3, t=...)   # what theory expects there, by linear theory
+made.at_paddle(end=20)       # (n, 2): time, elevation at the paddle with the waves that stay beside it
 """
 from __future__ import annotations
 
@@ -12,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+MAKERS = ("piston", "flap")
 KINDS = ("regular", "second_order", "focused", "jonswap", "pierson_moskowitz", "solitary", "elevation")
 _STEPS = 80  # of the displacement, in a period
 _RAMP = 2.0  # periods over which waves grow
@@ -57,11 +59,36 @@ def piston_transfer(kd: np.ndarray | float) -> np.ndarray:
     return 2 * (np.cosh(grows) - 1) / (np.sinh(grows) + 2 * kd)
 
 
-def flap_transfer(kd: np.ndarray | float) -> np.ndarray:
-    """Height of the wave over the stroke at the surface of a flap that is hinged at the bed. Source: Dean and Dalrymple (1991), eq. 6.26."""
+def flap_transfer(kd: np.ndarray | float, hinge: float = 0.0) -> np.ndarray:
+    """Height of the wave over the stroke at the still level of a flap. `hinge`: its height above the bed over the depth, below 1; < 0: below the bed.
+
+    Source: Biesel and Suquet (1951); Dean and Dalrymple (1991), eq. 6.26 for a hinge at the bed.
+    """
     kd = np.asarray(kd, dtype=float)
-    grows = np.minimum(kd, 300.0)
-    return 4 * np.sinh(grows) * (grows * np.sinh(grows) - np.cosh(grows) + 1) / (grows * (np.sinh(2 * grows) + 2 * grows))
+    k = np.minimum(kd, 300.0)
+    lowest = np.cosh(k * max(hinge, 0.0))
+    return 4 * np.sinh(k) * (np.sinh(k) - (np.cosh(k) - lowest) / (k * (1 - hinge))) / (np.sinh(2 * k) + 2 * k)
+
+
+def near_field(omega: np.ndarray | float, depth: float, g: float = 9.81, hinge: float | None = None, terms: int = 200) -> np.ndarray:
+    """Elevation beside the paddle that does not travel, over the displacement at the still level: the sum of the evanescent modes.
+    `hinge`: of a flap, above the bed [L]; None: a piston.
+
+    Source: Biesel and Suquet (1951); Dean and Dalrymple (1991), section 6.3.
+    """
+    ratio = np.atleast_1d(np.asarray(omega, dtype=float)) ** 2 * depth / g
+    j = np.arange(1, terms + 1)[None]
+    low, high = (j - 0.5) * math.pi + 0 * ratio[:, None], j * math.pi + 0 * ratio[:, None]
+    for _ in range(60):  # k d of ratio = - k d tan(k d), one in each of these intervals
+        middle = 0.5 * (low + high)
+        above = middle * np.sin(middle) + ratio[:, None] * np.cos(middle)
+        upper = np.sign(above) == np.sign(high * np.sin(high) + ratio[:, None] * np.cos(high))
+        low, high = np.where(upper, low, middle), np.where(upper, middle, high)
+    k = 0.5 * (low + high)
+    shape = np.sin(k)
+    if hinge is not None:
+        shape = shape + (np.cos(k) - np.cos(k * max(hinge, 0.0) / depth)) / (k * (1 - hinge / depth))
+    return (4 * np.sin(k) * shape / (2 * k + np.sin(2 * k))).sum(axis=1)
 
 
 def breaking_height(wave: float, depth: float) -> float:
@@ -84,7 +111,7 @@ def jonswap(f: np.ndarray, height: float, period: float, gamma: float) -> np.nda
 class Waves:
     """`kind`: of KINDS. `depth` of the water at the piston, `height` (of irregular and focused waves H_m0, and the height of the crest at the focus) [L];
     `period` (of the peak) [T]; `seed` and `gamma` of irregular ones; `focus`: distance from the piston and time, which focused waves need; `record`: (n, 2) time and elevation at the
-    piston. `ramp`: periods over which waves grow from nothing."""
+    piston. `ramp`: periods over which waves grow from nothing. `maker`: of MAKERS; `hinge`: height of that of a flap above the bed, < 0: below it [L]."""
 
     kind: str
     depth: float
@@ -96,6 +123,8 @@ class Waves:
     focus: tuple[float, float] | None = None
     components: int = 200
     ramp: float = _RAMP
+    maker: str = "piston"
+    hinge: float = 0.0
     record: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))
 
     def __post_init__(self) -> None:
@@ -104,6 +133,7 @@ class Waves:
         if not (self.g > 0 and math.isfinite(self.g)):
             raise WaveFault(f"gravity is {self.g:g}: waves need one above 0")
         self._check_size("depth", "depth of the water")
+        self._check_maker()
         if not (self.ramp >= 0 and math.isfinite(self.ramp)):
             raise WaveFault(f"the ramp is {self.ramp:g}: it must be 0 or more periods", "ramp", "ramp: 2, or 0 for waves that begin at once")
         if self.kind == "elevation":
@@ -127,6 +157,16 @@ class Waves:
         value = getattr(self, key)
         if not _SIZES[0] <= value <= _SIZES[1]:
             raise WaveFault(f"the {name} is {value:g}: it must be above 0" + (f", from {_SIZES[0]:g} to {_SIZES[1]:g}" if value > 0 else ""), key)
+
+    def _check_maker(self) -> None:
+        if self.maker not in MAKERS:
+            raise WaveFault(f"no wave maker '{self.maker}': {', '.join(MAKERS)}", "maker")
+        if self.maker == "piston" and self.hinge:
+            raise WaveFault("a piston has no hinge", "hinge", "maker: flap")
+        if not (math.isfinite(self.hinge) and self.hinge < 0.9 * self.depth):
+            raise WaveFault(f"the hinge is {self.hinge:g} above the bed in a depth of {self.depth:g}: it must be below 0.9 of the depth", "hinge")
+        if self.maker == "flap" and self.kind in ("second_order", "solitary"):
+            raise WaveFault(f"a flap makes no waves of kind {self.kind}: their theory is that of a piston", "maker", "maker: piston")
 
     def _check_record(self) -> None:
         r = self.record
@@ -158,6 +198,19 @@ class Waves:
     def wave(self) -> float:
         """Wave number of the period [1/L]."""
         return float(wave_number(self.omega, self.depth, self.g))
+
+    def transfer(self, kd: np.ndarray | float) -> np.ndarray:
+        """Height of the wave over the stroke of the maker at the still level."""
+        return piston_transfer(kd) if self.maker == "piston" else flap_transfer(kd, self.hinge / self.depth)
+
+    def absorption(self) -> float:
+        """Factor of the velocity of long waves at which the maker absorbs waves of the period; 1 of kinds without one. [-]"""
+        if self.kind in ("solitary", "elevation"):
+            return 1.0
+        arm = self.depth - self.hinge
+        moved = self.depth if self.maker == "piston" else 0.5 * arm if self.hinge >= 0 else 0.5 * self.depth * (self.depth - 2 * self.hinge) / arm
+        long = math.sqrt(self.g * self.depth) / moved
+        return self.omega / float(self.transfer(self.wave * self.depth)) / long
 
     def spectrum(self) -> Components:
         """The components that add up to the waves, at the piston."""
@@ -211,20 +264,43 @@ class Waves:
         if self.kind == "solitary":
             return self._push(end)
         of = self.spectrum()
-        period = 2 * math.pi / float(of.omega.max())
-        longest = self.period or float(self.record[-1, 0] - self.record[0, 0]) / 10
-        t = self._times(end, max(2.0, _STEPS * end / min(period, longest)))
+        t = self._times_of(of, end)
         k = wave_number(of.omega, self.depth, self.g)
-        half_stroke = of.amplitude / piston_transfer(k * self.depth)
+        half_stroke = of.amplitude / self.transfer(k * self.depth)
         x = np.zeros_like(t)
         for s, omega, phase in zip(half_stroke, of.omega, of.phase):
             # the elevation at a piston goes with its velocity
             x += s * np.sin(omega * t - phase)
         if self.kind == "second_order":
             x += self._second_order() * np.sin(2 * self.omega * t)
-        if self.ramp > 0:
-            x *= 0.5 - 0.5 * np.cos(math.pi * np.clip(t / (self.ramp * longest), 0, 1))
+        x *= self._growth(t)
         return np.column_stack([t, x - x[0]])
+
+    def at_paddle(self, end: float) -> np.ndarray:
+        """Time and elevation at the paddle by linear theory, with the near field that does not travel, to `end`; of a solitary wave Boussinesq's at the
+        moving paddle. (n, 2) [T], [L]"""
+        if self.kind == "solitary":
+            t, x = self._push(end).T
+            kappa, c = self._solitary()
+            centre = self.height / (kappa * self.depth)
+            return np.column_stack([t, self.height / np.cosh(np.clip(kappa * (c * (t - self._start()) - (x - centre)), -300, 300)) ** 2])
+        of = self.spectrum()
+        t = self._times_of(of, end)
+        k = wave_number(of.omega, self.depth, self.g)
+        beside = near_field(of.omega, self.depth, self.g, self.hinge if self.maker == "flap" else None) / self.transfer(k * self.depth)
+        eta = np.zeros_like(t)
+        for a, omega, phase, share in zip(of.amplitude, of.omega, of.phase, beside):
+            eta += a * (np.cos(omega * t - phase) + share * np.sin(omega * t - phase))
+        return np.column_stack([t, eta * self._growth(t)])
+
+    def _longest(self) -> float:
+        return self.period or float(self.record[-1, 0] - self.record[0, 0]) / 10
+
+    def _times_of(self, of: Components, end: float) -> np.ndarray:
+        return self._times(end, max(2.0, _STEPS * end / min(2 * math.pi / float(of.omega.max()), self._longest())))
+
+    def _growth(self, t: np.ndarray) -> np.ndarray:
+        return 0.5 - 0.5 * np.cos(math.pi * np.clip(t / (self.ramp * self._longest()), 0, 1)) if self.ramp > 0 else np.ones_like(t)
 
     @staticmethod
     def _times(end: float, intervals: float) -> np.ndarray:

@@ -240,4 +240,17 @@ void RigidBodies::follow(const std::vector<PrescribedMotion>& motions, const Dec
     if (motion.body != 0) follower.add(motion, bodies_);
 }
 
+void RigidBodies::drive(std::size_t body, const MotionSource& source) {
+  RigidBody& b = bodies_[body];
+  for (int component = 0; component < 6; ++component) {
+    const bool turns = component >= 3;
+    const int axis = component % 3;
+    if ((turns ? b.no_turn : b.held)[static_cast<std::size_t>(axis)]) continue;
+    PrescribedMotion motion;
+    motion.turns = turns, motion.direction = Vec::Unit(axis);
+    motion.source = &source, motion.component = component;
+    b.motions.push_back(std::move(motion));
+  }
+}
+
 }  // namespace courant

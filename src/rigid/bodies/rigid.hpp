@@ -143,6 +143,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// axes.
   void follow(const std::vector<PrescribedMotion>& motions, const Deck& deck, const Model& model,
               Diagnostics& diagnostics);
+  /// Lets a body take the velocities of `source`, which lives as long, in all directions that are not held.
+  void drive(std::size_t body, const MotionSource& source);
   /// For contact with their faces. Refers to this object.
   WallBodies wall_bodies(World& world);
   /// Adds to what moves a body in the coming step, after forces were summed; what holds the body takes its

@@ -91,11 +91,59 @@ def test_records(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         ({"period": 1e-4, "height": 1e-10}, "the displacement would have 4.8e.06 rows"),
         ({"towards": "up"}, "towards: 'up' is no direction"),
         ({"heigth": 0.1}, "waves: unknown key 'heigth'"),
+        ({"maker": "flapp"}, "no wave maker 'flapp'\n  hint: did you mean flap"),
+        ({"maker": "flap", "kind": "second_order"}, "a flap makes no waves of kind second_order"),
+        ({"maker": "flap", "hinge": 0.48}, "must be below 0.9 of the depth"),
+        ({"hinge": 0.1}, "waves: 'hinge' has no effect on kind regular"),
+        ({"absorb": 2}, "waves: 'absorb' is true or false"),
+        ({"drift": 3}, "waves: 'drift' has no effect on kind regular"),
+        ({"kind": "displacement", "record": "x.csv", "height": None, "period": None, "absorb": True}, "'absorb' has no effect on kind displacement"),
+        ({"kind": "still", "height": None}, "a still paddle without 'absorb: true' is a wall"),
+        ({"kind": "still", "height": None, "depth": None, "absorb": True}, "'depth' is missing: the level that a still paddle keeps"),
+        ({"absorb": True, "motion": {"y": "0.1*TIME"}}, "has no other motion\n  hint: leave out the formulas"),
+        ({"maker": "flap", "low": -0.1}, "leaves the box, which is from -0.1 to 4"),
     ],
 )
 def test_faults(waves: dict[str, Any], message: str) -> None:
     with pytest.raises(courant.CourantError, match=message):
         flume(**waves).deck()
+
+
+def wave_maker(scene: courant.Scene) -> tuple[list[float], list[np.ndarray]]:
+    """Numbers of the card, and its curves."""
+    cards, *curves = scene.deck().split("*COURANT_WAVE_MAKER\n")[1].split("*DEFINE_CURVE\n")
+    numbers = [float(line[k : k + 10]) for line in cards.split("*")[0].splitlines() if not line.startswith("$") for k in range(0, len(line), 10)]
+    rows = [[line for line in curve.split("*")[0].splitlines()[3:] if not line.startswith("$")] for curve in curves]
+    return numbers, [np.array([[float(line[:20]), float(line[20:])] for line in some]) for some in rows]
+
+
+def test_wave_makers_that_turn_or_absorb_have_a_card_of_their_own() -> None:
+    made = Waves("regular", depth=0.5, height=0.08, period=1.4, maker="flap", hinge=0.1)
+    numbers, curves = wave_maker(flume(maker="flap", hinge=0.1, absorb=True))
+    np.testing.assert_allclose(curves[0], made.displacement(6), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(curves[1], made.at_paddle(6), rtol=1e-9, atol=1e-12)
+    assert numbers[:8] == [12, 1, 901, 1, 902, 0.5, 9.81, 0.1] and numbers[8:14] == [0, 0, 0, 1, 0, 0]
+    assert numbers[14:18] == pytest.approx([made.absorption(), 0, 0, 14], rel=1e-6)
+    top = (1 - 0.1) / 0.4  # the upper edge goes farther than the still level
+    assert numbers[18] == pytest.approx(0.3 / top + made.displacement(6)[:, 1].min(), rel=1e-6)
+    deck = flume(maker="flap", hinge=0.1, absorb=True).deck()
+    assert "*BOUNDARY_PRESCRIBED_MOTION_RIGID" not in deck and "         1         3         4" in deck  # free along x, y and about z
+    towards, back = wave_maker(flume(wall=4, towards="-x", absorb=True))
+    assert towards[8:14] == [4, 0, 0, -1, 0, 0]
+    np.testing.assert_allclose(back[0], Waves("regular", depth=0.5, height=0.08, period=1.4).displacement(6), rtol=1e-9, atol=1e-12)
+
+
+def test_a_paddle_at_rest_absorbs() -> None:
+    numbers, curves = wave_maker(flume(kind="still", height=None, absorb=True))
+    assert numbers[:6] == [12, 0, 0, 1, 0, 0.5] and not curves
+    assert numbers[14] == pytest.approx(Waves("regular", depth=0.5, height=0.01, period=1.4).absorption(), rel=1e-6) and numbers[17] == 14
+    assert wave_maker(flume(kind="still", height=None, period=None, absorb=True))[0][14] == 1
+
+
+def test_the_box_itself_is_no_wave_maker_that_absorbs(tmp_path: Path) -> None:
+    text = FLUME.replace("open: [top, left]}", "open: [top], motion: {waves: {kind: regular, depth: 0.5, height: 0.01, period: 1.4, absorb: true}}}")
+    out = written(tmp_path, text[: text.index("walls:")])
+    assert "a box neither turns as a flap nor absorbs waves" in out.messages and not out.deck
 
 
 def test_a_formula_before_or_behind_the_waves_is_refused(tmp_path: Path) -> None:

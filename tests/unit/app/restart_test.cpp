@@ -99,6 +99,17 @@ TEST(Restart, ParticlesThatAWallHolds) {
   expect_same({.start = "3.,-30.,0.", .extra = test::floor_cards(-0.225)}, {1, 6, 15, 40}, 90);
 }
 
+// The measured level and what absorption has moved so far.
+TEST(Restart, PaddleThatAbsorbs) {
+  const std::string paddle =
+      "*NODE\n8001,-0.025,0.,-0.5\n8002,-0.025,0.8,-0.5\n8003,-0.025,0.8,0.5\n8004,-0.025,0.,0.5\n"
+      "*ELEMENT_SHELL\n8,8,8001,8002,8003,8004\n*PART\npaddle\n8,8,8\n*SECTION_SHELL\n8,2\n0.05\n"
+      "*MAT_RIGID\n8,7850.,2.1E11,0.3\n1,3,4\n*DEFINE_CURVE\n11\n0.,0.\n0.1,0.02\n1.,0.01\n"
+      "*COURANT_WAVE_MAKER\n8,1,11,1.,11,0.65\n-0.025,0.,0.,1.,0.,0.\n1.,0.15,0.01,0.5\n"
+      "*CONTACT_AUTOMATIC_NODES_TO_SURFACE\n1,8,3,3\n0.\n1.\n";
+  expect_same({.extra = test::gravity_cards + test::floor_cards() + paddle}, {0, 1, 30, 75}, 120);
+}
+
 TEST(Restart, EveryKernel) {
   for (const char* section : {"1,1.2,1.,1.,0.,0.,0.,1", "1,1.2,0.5,2.,0.,0.,0.,2", "1,1.2,1.,1.,0.,0.,0.,3"})
     expect_same({.section = section, .extra = test::gravity_cards + test::floor_cards()}, {40}, 90);

@@ -231,9 +231,9 @@ class Analysis:
 
 Factory = Callable[[YamlMap, Settings], Analysis]
 _OF_MODULES = {"kinds_states": "probe surface grid profile flux", "kinds_series": "spectrum history force toe", "kinds_roller": "roller"}
-_OF_MODULES |= {"kinds_drop": "jump_type drop_regime", "kinds_gauges": "gauges correlation", "kinds_balance": "mass_balance soundness"}
+_OF_MODULES |= {"kinds_drop": "jump_type drop_regime", "kinds_gauges": "gauges correlation", "kinds_balance": "mass_balance soundness", "kinds_mesh": "surface_mesh"}
 _ORDER = "probe surface grid profile spectrum flux history force toe roller".split()  # as messages name them
-_ORDER += "jump_type drop_regime gauges correlation mass_balance soundness".split()
+_ORDER += "jump_type drop_regime gauges correlation mass_balance soundness surface_mesh".split()
 KINDS: Registry[Factory] = Registry(
     "kind of analysis", {kind: f"{__package__}.{home}" for kind in _ORDER for home, kinds in _OF_MODULES.items() if kind in kinds.split()}
 )

@@ -88,7 +88,7 @@ class RollerAnalysis(Analysis):
             return None
         missing = [one for one in wanted if table.find(one) is None]
         if missing:
-            self.fault(run, f"the table '{table_name}' has no column '{missing[0]}'")
+            self.fault(run, f"the table '{table_name}' has no column '{missing[0]}'", f"it has {', '.join(table.names)}")
             return None
         return [column.values for one in wanted if (column := table.find(one))]
 

@@ -115,7 +115,10 @@ class BasinReader(ShapeReader):
             if name not in basin.sides:
                 self.error(side, f"open: '{name}' is no side of the box", f"its sides: {', '.join(basin.sides)}")
             basin.open.add(name)
+        before = len(self.pistons)
         basin.box_motion = self.read_motion(node, basin)
+        if any(piston.own_card for piston in self.pistons[before:]):
+            self.error(self.get(node, "motion") or node, "box: a box neither turns as a flap nor absorbs waves", "make the wave maker a wall of its own")
 
     def read_motion(self, node: Node, basin: Basin) -> dict[str, str | np.ndarray]:
         """Displacements along axes [L]: formulas of TIME, or of waves numbers over time."""
@@ -126,6 +129,7 @@ class BasinReader(ShapeReader):
         self.check_keys(entry, "motion", (*axes, "waves"))
         out: dict[str, str | np.ndarray] = {}
         made: str | np.ndarray
+        before = len(self.pistons)
         for key, value in entry.value:
             axis = str(key.value)
             if axis == "waves":
@@ -146,6 +150,8 @@ class BasinReader(ShapeReader):
             if axis in out and (key.value == "waves" or not isinstance(out[axis], str)):
                 self.error(value, f"motion: the waves and a formula both move the wall along {axis}", f"leave out the waves or '{axis}'")
             out[axis] = made
+        if len(out) > 1 and any(piston.own_card for piston in self.pistons[before:]):
+            self.error(entry, "motion: a flap, and a wave maker that absorbs, has no other motion", "leave out the formulas")
         return out
 
     def read_solids(self, root: Node, basin: Basin) -> None:
@@ -166,7 +172,7 @@ class BasinReader(ShapeReader):
                     for axis, series in solid.motion.items():
                         if basin.box and not isinstance(series, str):
                             at = "xyz".index(axis)
-                            check_reach(self, entry, axis, series, shape.points, basin.box[0][at], basin.box[1][at])
+                            check_reach(self, entry, axis, series, shape.points, basin.box[0][at], basin.box[1][at], solid.piston)
                 else:
                     self.read_body(entry, solid)
                 basin.solids.append(solid)

@@ -44,6 +44,9 @@ def explain_basin(basin: Basin, model: Model) -> None:
             mass, centre, _ = solid.shape.inertia(solid.density)
             add(f"'{solid.shape.name}' weighs {number_text(mass)}, centre at {', '.join(f'{v:.4g}' for v in centre)}",
                 "from its volume and density, as if it were filled evenly", f"*PART_INERTIA {solid.part}")
+        elif solid.piston is not None and solid.piston.own_card:
+            add(f"'{solid.shape.name}' is a {solid.piston.maker} that makes waves" + (" and absorbs those that come back" if solid.piston.absorb else ""), "given",
+                f"*COURANT_WAVE_MAKER {solid.part}")
         elif solid.motion:
             add(f"'{solid.shape.name}' moves along {' and '.join(solid.motion)}", "given", f"*BOUNDARY_PRESCRIBED_MOTION_RIGID {solid.part}")
         else:

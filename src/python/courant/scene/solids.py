@@ -58,6 +58,16 @@ $#     pid       dof       vad      lcid        sf
 ${pid:10}${dof:10}         2${lcid:10}       1.0
 """
 
+_WAVE_MAKER = """\
+*COURANT_WAVE_MAKER
+$#     pid      kind      lcid        sf     lceta         d         g     hinge
+${pid:10}${flap:10}${lcid:10}       1.0${lceta:10}${depth:10}${g:10}${hinge:10}
+$#       x         y         z        vx        vy        vz
+${x:10}${y:10}${z:10}${vx:10}${vy:10}${vz:10}
+$#  absorb      dist       tau    tdrift      xmax
+${absorb:10}         0         0${tdrift:10}${xmax:10}
+"""
+
 _SERIES = """\
 *DEFINE_CURVE
 $#    lcid
@@ -167,6 +177,35 @@ def motion_cards(part: int, motion: dict[str, str | np.ndarray], first_curve: in
     return out
 
 
+def _series_cards(lcid: int, series: np.ndarray) -> str:
+    return substitute(_SERIES, {"lcid": float(lcid)}) + "".join(f"{t:20.9e}{x:20.9e}\n" for t, x in series)
+
+
+def wave_maker_cards(basin: Basin, solid: Solid, first_curve: int) -> tuple[str, int]:
+    """Of a wave maker that absorbs or turns, and the number of its curves."""
+    piston = solid.piston
+    assert piston is not None
+    a, up = "xyz".index(piston.axis), basin.dim - 1
+    at = [0.5 * float(low + high) for low, high in zip(solid.shape.low, solid.shape.high, strict=True)]
+    at[a] = float(solid.shape.high[a] if piston.sign > 0 else solid.shape.low[a])
+    at[up] = basin.box[0][up] if basin.box else float(solid.shape.low[up])
+    if basin.dim == 2:
+        at[2] = 0.0
+    towards = [piston.sign if k == a else 0.0 for k in range(3)]
+    curves, lcid, lceta = "", 0, 0
+    if np.ptp(piston.series[:, 1]) > 0:
+        lcid = first_curve
+        curves += _series_cards(lcid, piston.series * [1.0, piston.sign])
+    if piston.absorb > 0 and len(piston.elevation):
+        lceta = first_curve + 1
+        curves += _series_cards(lceta, piston.elevation)
+    card = substitute(_WAVE_MAKER, {
+        "pid": float(solid.part), "flap": float(piston.maker == "flap"), "lcid": float(lcid), "lceta": float(lceta), "depth": piston.depth, "g": basin.gravity,
+        "hinge": piston.hinge, "x": at[0], "y": at[1], "z": at[2], "vx": towards[0], "vy": towards[1], "vz": towards[2], "absorb": piston.absorb,
+        "tdrift": piston.drift if piston.absorb > 0 else 0.0, "xmax": min(piston.space, piston.depth) if piston.space > 0 else 0.0})
+    return card + curves, 2
+
+
 def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
     """All that walls and bodies need beside the material of fixed walls, which `basin` has written."""
     held = ([walls.id] if walls else []) + [solid.part for solid in basin.solids if not solid.free]
@@ -174,7 +213,8 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
     flat = {"z", "rx", "ry"} if basin.dim == 2 else set[str]()
     out = [material(basin, solid.part, solid.hold | flat, solid.density) for solid in basin.solids if solid.free]
     curve = FIRST_CURVE
-    motions = [(solid.part, solid.motion) for solid in basin.solids if solid.motion]
+    makers = [solid for solid in basin.solids if solid.piston is not None and solid.piston.own_card]
+    motions = [(solid.part, solid.motion) for solid in basin.solids if solid.motion and not (solid.piston is not None and solid.piston.own_card)]
     if walls and basin.box_motion:
         walls.material = walls.id
         motions.append((walls.id, basin.box_motion))
@@ -182,6 +222,15 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
         out.append(material(basin, part, set(FREE) - set(motion)))
         out.append(motion_cards(part, motion, curve))
         curve += len(motion)
+    for solid in makers:
+        piston = solid.piston
+        assert piston is not None
+        up = "xyz"[basin.dim - 1]
+        turn = {"rz" if basin.dim == 2 else "ry" if piston.axis == "x" else "rx"}
+        out.append(material(basin, solid.part, set(FREE) - {piston.axis} - ({up} | turn if piston.maker == "flap" else set())))
+        cards, count = wave_maker_cards(basin, solid, curve)
+        out.append(cards)
+        curve += count
     out.append(part_set(SOLIDS, held + bodies))
     variables = basin.variables()
     out.append(substitute(_SURFACES, variables))
@@ -191,7 +240,7 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
         out += [part_set(MIRRORS, mirrors), _MIRRORS]
     if bodies and held and basin.dim == 3:  # elements of the plane do not touch each other
         out += [part_set(HELD, held), part_set(BODIES, bodies), _BODIES]
-    if bodies or motions:
+    if bodies or motions or makers:
         out.append(substitute(_MOVING, variables))
     return out
 

@@ -2,16 +2,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..diagnostics import Location
-from ..waves import KINDS, WaveFault, Waves
+from ..waves import KINDS, MAKERS, WaveFault, Waves
 from ..words import did_you_mean, shortest
-from ..yaml_map import Node, is_list
+from ..yaml_map import Node, is_list, is_scalar
 
 if TYPE_CHECKING:
     from .basin_reader import BasinReader
@@ -27,8 +27,11 @@ _USED = {
     "solitary": ("height",),
     "elevation": ("record", "ramp"),
     "displacement": ("record",),
+    "still": ("period",),
 }
-_KEYS = ("kind", "depth", "height", "period", "seed", "gamma", "focus", "components", "ramp", "record", "towards")
+_FLAPS = ("regular", "focused", "jonswap", "pierson_moskowitz", "elevation", "still")
+_DRIFT = 10.0  # periods in which the drift of absorption goes back
+_KEYS = ("kind", "depth", "height", "period", "seed", "gamma", "focus", "components", "ramp", "record", "towards", "maker", "hinge", "absorb", "drift")
 _SIDES = {"x": ("x", 1.0), "-x": ("x", -1.0), "y": ("y", 1.0), "-y": ("y", -1.0)}
 
 
@@ -43,6 +46,17 @@ class Piston:
     depth: float
     where: Location  # of the depth, or of the waves
     where_towards: Location
+    maker: str = "piston"
+    hinge: float = 0.0  # of a flap, above the bed [L]
+    absorb: float = 0.0  # factor of *COURANT_WAVE_MAKER; 0: waves that come back are reflected
+    drift: float = 0.0  # time constant in which the drift of absorption goes back; 0: it stays [T]
+    elevation: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))  # at the paddle, of what absorbs
+    space: float = 0.0  # for displacements by absorption; 0: not known [L]
+
+    @property
+    def own_card(self) -> bool:
+        """Whether *COURANT_WAVE_MAKER moves it, not a prescribed motion."""
+        return self.maker != "piston" or self.absorb > 0
 
 
 def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> Piston | None:
@@ -53,19 +67,21 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> P
     before = reader.diagnostics.errors
     kind_node = reader.get(node, "kind")
     kind = reader.text(kind_node) if kind_node is not None else "regular"
-    if kind not in (*KINDS, "displacement"):
-        reader.error(kind_node or node, f"no kind of waves '{kind}'", f"{did_you_mean(kind, KINDS)}{', '.join(KINDS)}, displacement")
+    if kind not in (*KINDS, "displacement", "still"):
+        reader.error(kind_node or node, f"no kind of waves '{kind}'", f"{did_you_mean(kind, KINDS)}{', '.join(KINDS)}, displacement, still")
         return None
+    maker, hinge, absorbs = _read_maker(reader, node, kind)
+    of_maker = (*(("maker",) if kind in _FLAPS else ()), *(("hinge",) if maker == "flap" else ()), *(("absorb",) if kind != "displacement" else ()), *(("drift",) if absorbs else ()))
     for key in _KEYS:
-        if (entry := reader.get(node, key)) is not None and key not in ("kind", "depth", "towards", *_USED[kind]):
-            reader.error(entry, f"waves: '{key}' has no effect on kind {kind}", f"its keys: {', '.join(('depth', *_USED[kind], 'towards'))}")
+        if (entry := reader.get(node, key)) is not None and key not in ("kind", "depth", "towards", *of_maker, *_USED[kind]):
+            reader.error(entry, f"waves: '{key}' has no effect on kind {kind}", f"its keys: {', '.join(('depth', *_USED[kind], 'towards', *of_maker))}")
     towards_node = reader.get(node, "towards")
     towards = reader.text(towards_node) if towards_node is not None else "x"
     sides = [side for side in _SIDES if reader.dim != 2 or side.endswith("x")]  # y is upwards in the plane
     if towards not in sides:
         reader.error(towards_node or node, f"towards: '{towards}' is no direction", ", ".join(sides))
         return None
-    numbers = {key: value for key in ("depth", "height", "period", "gamma", "ramp") if (value := _number(reader, node, key)) is not None}
+    numbers = {key: value for key in ("depth", "height", "period", "gamma", "ramp", "drift") if (value := _number(reader, node, key)) is not None}
     whole = {key: value for key in ("seed", "components") if (value := _whole(reader, node, key)) is not None}
     record = _record(reader, node) if kind in ("elevation", "displacement") else None
     focus_node = reader.get(node, "focus")
@@ -78,25 +94,62 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> P
     if reader.diagnostics.errors > before:
         return None
     axis, sign = _SIDES[towards]
-    depth = numbers.get("depth", 0.0)
+    depth, drift = numbers.get("depth", 0.0), numbers.pop("drift", None)
     where, where_towards = reader.at(reader.get(node, "depth") or node), reader.at(towards_node or node)
     if kind == "displacement":
         if record is None:
             return None
         return Piston(axis, sign, np.column_stack([record[:, 0], sign * record[:, 1]]), depth, where, where_towards)
+    if kind == "still":
+        if not depth > 0:
+            reader.error(node, "waves: 'depth' is missing: the level that a still paddle keeps", "depth: 0.5")
+            return None
+        try:  # of waves that come there; without a period: long ones
+            period = numbers.get("period", 0.0)
+            absorb = Waves("regular", depth, 1e-6 * depth, period, gravity, maker=maker, hinge=hinge).absorption() if "period" in numbers else 1.0
+        except WaveFault as fault:
+            reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
+            return None
+        return Piston(axis, sign, np.array([[0.0, 0.0], [end, 0.0]]), depth, where, where_towards, maker, hinge, absorb, _DRIFT * period if drift is None else drift)
     try:
-        waves = Waves(kind, g=gravity, focus=focus, record=record if record is not None else np.empty((0, 2)), **({"depth": 0.0} | numbers), **whole)  # type: ignore[arg-type]
+        waves = Waves(kind, g=gravity, focus=focus, record=record if record is not None else np.empty((0, 2)), maker=maker, hinge=hinge,
+                      **({"depth": 0.0} | numbers), **whole)  # type: ignore[arg-type]
         made = waves.displacement(end)
+        elevation = waves.at_paddle(end) if absorbs else np.empty((0, 2))
     except WaveFault as fault:
         reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
         return None
-    return Piston(axis, sign, np.column_stack([made[:, 0], sign * made[:, 1]]), depth, where, where_towards)
+    return Piston(axis, sign, np.column_stack([made[:, 0], sign * made[:, 1]]), depth, where, where_towards, maker, hinge, waves.absorption() if absorbs else 0.0,
+                  _DRIFT * waves.period if drift is None else drift, elevation)
 
 
-def check_reach(reader: BasinReader, node: Node, axis: str, series: np.ndarray, points: np.ndarray, low: float, high: float) -> None:
-    """A wall that leaves the box lets its water out beside it."""
+def _read_maker(reader: BasinReader, node: Node, kind: str) -> tuple[str, float, bool]:
+    """Piston or flap, the height of its hinge, and whether it absorbs."""
+    entry = reader.get(node, "maker")
+    maker = reader.text(entry) if entry is not None else "piston"
+    if maker not in MAKERS:
+        reader.error(entry or node, f"no wave maker '{maker}'", f"{did_you_mean(maker, MAKERS)}{', '.join(MAKERS)}")
+    elif maker == "flap" and kind in KINDS and kind not in _FLAPS:
+        reader.error(entry or node, f"waves: a flap makes no waves of kind {kind}: their theory is that of a piston", "maker: piston")
+    absorb = reader.get(node, "absorb")
+    if absorb is not None and (not is_scalar(absorb) or absorb.value not in ("true", "false")):
+        reader.error(absorb, "waves: 'absorb' is true or false")
+    absorbs = absorb is not None and absorb.value == "true"
+    if kind == "still" and not absorbs:
+        reader.error(absorb or node, "waves: a still paddle without 'absorb: true' is a wall", "leave out its motion, or absorb: true")
+    return maker, _number(reader, node, "hinge") or 0.0, absorbs
+
+
+def check_reach(reader: BasinReader, node: Node, axis: str, series: np.ndarray, points: np.ndarray, low: float, high: float, piston: Piston | None = None) -> None:
+    """A wall that leaves the box lets its water out beside it. Notes how far absorption may move a wave maker."""
     a = "xyz".index(axis)
-    least, most = float(points[:, a].min() + series[:, 1].min()), float(points[:, a].max() + series[:, 1].max())
+    top = 1.0
+    if piston is not None and piston.maker == "flap":  # its upper edge goes farther than the still level
+        up = points[:, reader.dim - 1]
+        top = max(1.0, (float(np.ptp(up)) - piston.hinge) / (piston.depth - piston.hinge))
+    least, most = float(points[:, a].min() + top * series[:, 1].min()), float(points[:, a].max() + top * series[:, 1].max())
+    if piston is not None:
+        piston.space = min(least - low, high - most) / top
     if least < low - 1e-9 or most > high + 1e-9:
         reader.error(node, f"waves: the wall goes from {axis} = {shortest(round(least, 6))} to {shortest(round(most, 6))}, and leaves the box, which is from {shortest(low)} to "
                      f"{shortest(high)}", "make the box wider on that side, or the waves lower or shorter")

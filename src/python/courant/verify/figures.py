@@ -87,7 +87,7 @@ def curve_figure(case: CaseResult, k: int) -> Figure | None:
     if case.definition.stability:
         return None  # each run is a setting of its own: a chart of the first one alone would say little
     o = case.definition.observations[k]
-    with_curve = [run for run in case.runs if k < len(run.observed) and len(run.observed[k].curve.x)]
+    with_curve = [run for run in case.runs if k < len(run.observed) and len(run.observed[k].curve.x) > 1]  # a single number is no curve
     if not with_curve:
         return None
     setting = with_curve[0].setting

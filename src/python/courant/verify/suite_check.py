@@ -110,6 +110,8 @@ def check_case(map_: YamlMap, case: Case, expressions: list[CheckedExpression], 
 
 
 def _check_expression(e: CheckedExpression, case: Case, parameters: Variables, diagnostics: Diagnostics) -> None:
+    if e.over == "gauges":
+        return  # a form of its own
     history = find_history_names(e.text) if e.over == "histories" else None
     variables = {"time": ["t"], "particles": VARIABLES, "outcome": [*OUTCOMES, *(o.name for o in case.observations)],
                  "histories": [*history.words, "t"] if history else []}.get(e.over, [])
