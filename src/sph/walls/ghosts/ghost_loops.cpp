@@ -10,13 +10,19 @@ namespace {
 /// Sums over no neighbour are 0, of which no mean is to be taken.
 constexpr Real least_weight = 1e-12;  // of sum_j V_j W without the kernel's constant, over h^Dim
 
-/// A kernel without its constant, of a pair where it was in the middle of the step.
-template <class Kernel, int Dim>
-COURANT_INLINE Pack shape_before(const Kernel& kernel, const GhostArrays& a, Difference<Dim> d,
-                                 const Difference<Dim>& u, const Pack& tiny, const Pack& hinv) {
-  d.advance(-a.half_step, u);
-  const Pack r2 = dot_plus(d, d, tiny);
-  return kernel.shape(r2 * rsqrt(r2) * hinv);
+/// Pairs that none of the eight has within its support may be left out.
+template <class Kernel>
+COURANT_INLINE Pack reach2(const Kernel& kernel, Real h) {
+  return Pack::of(kernel.support * kernel.support * h * h);
+}
+
+/// Calls `f` with the type of the kernel where it is a usual one beside walls, else with that of any.
+template <class F>
+auto with_ghost_kernel(KernelChoice choice, const F& f) {
+#if COURANT_SIMD_BYTES > 16 && !defined(__SANITIZE_ADDRESS__)
+  if (choice == KernelChoice::wendland_c4) return f(std::type_identity<WendlandC4>{});
+#endif
+  return with_loop_kernel(choice, f);
 }
 
 template <class Kernel, int Dim>
@@ -25,6 +31,9 @@ void rates_of_ghosts(const GhostArrays& arrays, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   const Real norm = gradient_norm<Dim>(kernel, a.h);
   const Pack hinv = Pack::of(1 / a.h), tiny = Pack::of(tiny_distance2 * a.h * a.h), two_hinv = 2 * hinv;
+  const Pack reach = reach2(kernel, a.h);
+  // the kernel in the middle of the step is that at its end less half a step of its change
+  const Real to_middle = a.half_step * kernel.gradient_factor / a.h;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
@@ -32,11 +41,12 @@ void rates_of_ghosts(const GhostArrays& arrays, const NeighbourLists& lists) {
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
-      const Pack r2 = dot_plus(d, d, tiny), rinv = rsqrt(r2), u_dot_d = dot(u, d);
-      const MovingShape<Kernel> moving(kernel, r2 * rinv * hinv, rinv, two_hinv, u_dot_d * rinv, dot(u, u),
-                                       r2, a.half_step);
+      const Pack r2 = dot_plus(d, d, tiny);
+      if (!any_less(r2, reach)) continue;
+      const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv, u_dot_d = dot(u, d);
+      const MovingShape<Kernel> moving(kernel, R, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2, a.half_step);
       rate += a.V[j] * (moving.shape * u_dot_d - a.half_step * moving.later);
-      weight += a.V[j] * shape_before<Kernel, Dim>(kernel, a, d, u, tiny, hinv);
+      weight += a.V[j] * (kernel.shape(R) - to_middle * moving.shape * u_dot_d);
     }
     const Pack all = max(weight, Pack::of(least_weight * power<Dim>(a.h)));
     const Pack volume_rate = norm * Pack::load(a.V + i, count) * rate;
@@ -50,6 +60,7 @@ void squeezed(const GhostArrays& arrays, const NeighbourLists& lists) {
   const GhostArrays a = arrays;
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   const Pack hinv = Pack::of(1 / a.h), tiny = Pack::of(tiny_distance2 * a.h * a.h);
+  const Pack reach = reach2(kernel, a.h);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     if (lists.start[g] == lists.start[g + 1]) continue;
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
@@ -57,8 +68,11 @@ void squeezed(const GhostArrays& arrays, const NeighbourLists& lists) {
     Pack sum = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
-      const Difference<Dim> d(xi, a.x, j), u(vi, a.v, j);
-      sum += a.squeeze[j - a.first] * shape_before<Kernel, Dim>(kernel, a, d, u, tiny, hinv);
+      Difference<Dim> d(xi, a.x, j);
+      d.advance(-a.half_step, Difference<Dim>(vi, a.v, j));
+      const Pack r2 = dot_plus(d, d, tiny);
+      if (!any_less(r2, reach)) continue;
+      sum += a.squeeze[j - a.first] * kernel.shape(r2 * rsqrt(r2) * hinv);
     }
     (Pack::load(a.drhodt + i, count) + Pack::load(a.rho + i, count) * sum).store(a.drhodt + i, count);
   }
@@ -70,6 +84,7 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   const Real norm = gradient_norm<Dim>(kernel, a.h);
   const Pack hinv = Pack::of(1 / a.h), tiny = Pack::of(tiny_distance2 * a.h * a.h);
+  const Pack reach = reach2(kernel, a.h);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes, at = i - a.first;
     const Places<Dim> xi(a.x, i, count), pull(a.g, at, count);
@@ -78,7 +93,9 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
       const Difference<Dim> d(xi, a.x, j);
-      const Pack r2 = dot(d, d) + tiny, rinv = rsqrt(r2), R = r2 * rinv * hinv;
+      const Pack r2 = dot_plus(d, d, tiny);
+      if (!any_less(r2, reach)) continue;
+      const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv;
       const Pack w = a.V[j] * kernel.shape(R);
       Pack height = pull.x * d.x + pull.y * d.y;
       if constexpr (Dim == 3) height += pull.z * d.z;
@@ -109,17 +126,17 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
 }  // namespace
 
 GhostLoop ghost_rate_loop(KernelChoice choice, int dim) {
-  return with_loop_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> GhostLoop {
+  return with_ghost_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> GhostLoop {
     return dim == 2 ? &rates_of_ghosts<Kernel, 2> : &rates_of_ghosts<Kernel, 3>;
   });
 }
 GhostLoop squeezed_by_ghosts_loop(KernelChoice choice, int dim) {
-  return with_loop_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> GhostLoop {
+  return with_ghost_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> GhostLoop {
     return dim == 2 ? &squeezed<Kernel, 2> : &squeezed<Kernel, 3>;
   });
 }
 GhostLoop ghost_pressure_loop(KernelChoice choice, int dim, bool stress) {
-  return with_loop_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> GhostLoop {
+  return with_ghost_kernel(choice, [&]<class Kernel>(std::type_identity<Kernel>) -> GhostLoop {
     if (dim == 2) return stress ? &pressures<Kernel, 2, true> : &pressures<Kernel, 2, false>;
     return stress ? &pressures<Kernel, 3, true> : &pressures<Kernel, 3, false>;
   });

@@ -8,6 +8,7 @@
 #include "parallel/parallel.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/walls/wall_surface.hpp"
+#include "state/shared_fields.hpp"
 #include "surfaces/face_forces.hpp"
 
 namespace courant {
@@ -59,6 +60,8 @@ WallGhosts::WallGhosts(const SphSettings& s, World& world, const std::vector<Wal
       kernel_(s.kernel),
       loads_(s.loads),
       loads_now_(s.loads.at(0)),
+      ro_(s.ro),
+      reference_volume_(shared_fields::reference_volume.add(world.particles.fields)),
       pressure_(std::holds_alternative<BulkViscosity>(s.viscosity)
                     ? sph_fields::pressure_plus_q(world.particles)
                     : world.particles.p),
@@ -106,21 +109,25 @@ WallGhosts::WallGhosts(const SphSettings& s, World& world, const std::vector<Wal
 
 void WallGhosts::declare(const World& world, Accesses& a) const {
   const Particles& p = world.particles;
-  a.in_start().reads(world.nodes.x).reads(world.nodes.v).reads(volumes_->before());
-  a.in_start().reads(p.x, Reach::others).reads(p.v, Reach::others);
-  a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads_before(p.rho).updates(p.drhodt);
+  a.reads(volumes_->before(), Reach::others);
+  a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads_before(p.rho).revises(p.drhodt);
+  a.in_start().reads(world.nodes.x).reads(world.nodes.v);
 }
 
 void WallGhosts::start(World& world, const Clock& clock) {
   loads_now_ = loads_.at(clock.t);
   follow_driven(world, clock);
-  run(rate_loop_, arrays(world));
 }
 
-void WallGhosts::block(World& world, const Clock&, Index begin, Index end) {
+void WallGhosts::block(World& world, const Clock& clock, Index begin, Index end) {
   const List& list = seen_[static_cast<std::size_t>(begin / block_size)];
   if (!list.entries.empty())
     squeeze_loop_(arrays(world), {list.entries.data(), list.start.data(), begin, end});
+  if (!list.entries.empty() && clock.dt_old > 0)
+    for (Index i = begin; i < end; ++i) {
+      const Real rho = world.particles.rho[i], strain = clock.dt_old * world.particles.drhodt[i] / rho;
+      world.particles.drhodt[i] = rho * std::expm1(strain) / clock.dt_old;
+    }
 }
 
 /// Velocities are those of the last half step, so that accelerations are those of half a step before.
@@ -191,6 +198,43 @@ void WallGhosts::sort(World& world, std::span<const Index> order) {
   set_places(world);
 }
 
+/// Whether no particle and no ghost is within reach of particle i.
+bool WallGhosts::is_alone(const World& world, Index i) const {
+  const Particles& p = world.particles;
+  const Real reach2 = power<2>(neighbours_->support() * h_ + neighbours_->skin());
+  const auto near = [&](Index j) { return j != i && (p.x.vec(j) - p.x.vec(i)).squaredNorm() < reach2; };
+  for (const Index j : neighbours_->listed(i / Neighbours::lanes))
+    if (near(j)) return false;
+  std::vector<Index> others;  // lists may lack particles of earlier groups
+  neighbours_->add_active_near(world, i, 1, others);
+  return std::none_of(others.begin(), others.end(), near);
+}
+
+/// A drop that has left the water keeps the density that its last neighbours left it, up to several percent
+/// off, and would hit the next wall with a pressure that is no water's. Alone it has none.
+void WallGhosts::relax_lone(World& world) {
+  constexpr Real least = 1e-3;  // of the density
+  Particles& p = world.particles;
+  std::vector<Index> lone;
+  collect(p.active, lone, [&](Index begin, Index end, std::vector<Index>& found) {
+    for (Index i = begin; i < end; ++i)
+      if (std::abs(p.rho[i] / ro_[static_cast<std::size_t>(p.part[i])] - 1) > least && is_alone(world, i))
+        found.push_back(i);
+  });
+  for (const Index i : lone) {
+    const Real energy = p.E[i] * reference_volume_[i];
+    world.energy.dissipated += energy, world.energy.throughput += std::abs(energy);
+    p.rho[i] = ro_[static_cast<std::size_t>(p.part[i])];
+    p.E[i] = p.p[i] = p.drhodt[i] = 0;
+    ++world.counters["lone_drops_relaxed"];
+  }
+}
+
+void WallGhosts::refreshed(World& world, const Clock&, std::span<const Index>) {
+  relist(world);
+  relax_lone(world);
+}
+
 void WallGhosts::relist(World& world) {
   const Index n = count(), first = world.particles.size();
   lists_.resize(static_cast<std::size_t>(block_count(n)));
@@ -207,7 +251,7 @@ void WallGhosts::relist(World& world) {
   });
   for (auto* arrays : {rise_, force_})
     for (int k = 0; k < 3; ++k) arrays[k].assign(static_cast<std::size_t>(n), Real(0));
-  for (auto* array : {&value_, &excess_, &squeeze_, &volume_rate_})
+  for (auto* array : {&value_, &excess_, &excess_before_, &squeeze_, &volume_rate_})
     array->assign(static_cast<std::size_t>(n), Real(0));
   const Index active = world.particles.active;
   seen_.resize(static_cast<std::size_t>(block_count(active)));
@@ -234,6 +278,8 @@ void WallGhosts::keep(Archive& archive) {
   archive("velocity", velocity_);
   archive("omega", omega_);
   archive("half_step", half_step_);
+  archive("excess", excess_);
+  if (archive.loading()) excess_.swap(saved_excess_);
   if (!archive.loading()) return;
   built_.assign(places.size() / 4, {});
   for (std::size_t f = 0; f < built_.size(); ++f) {
@@ -311,6 +357,7 @@ void WallGhosts::set_pressures(World& world) {
     }
     for (int c = 0; c < 3; ++c) rise_[c][k] = g[c];
   });
+  excess_.swap(excess_before_);
   run(pressure_loop_, arrays(world));
   for_each(count(), [&](Index k) { pressure_[first + k] = value_[k]; });
 }
@@ -335,17 +382,29 @@ void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields
       (*potential_)[first + k] =
           loads_.uniform() ? -loads_now_.everywhere().dot(x) : loads_now_.potential(x, part_);
     });
-  if (asks(&p.v) && any_moves()) set_velocities(world);
+  if (asks(&p.v)) {
+    if (any_moves()) set_velocities(world);
+    run(rate_loop_, arrays(world));
+  }
   if (asks(&pressure_)) set_pressures(world);
 }
 
 void WallGhosts::exchange_all(World& world) {
+  if (!saved_excess_.empty()) {  // pressures of the last forces; before the next ones nobody reads them
+    const FieldBase* const places[]{&world.particles.x, &world.particles.v, potential_};
+    exchange(world, places);
+    excess_.swap(saved_excess_);
+    saved_excess_.clear();
+    return;
+  }
   const FieldBase* const fields[]{&world.particles.x, &world.particles.v, &pressure_, potential_};
   exchange(world, fields);
 }
 
 void WallGhosts::record(World& world, const Clock& clock, EnergyLedger& ledger) {
-  const Real work = -clock.dt_old * sum(count(), [&](Index k) { return volume_rate_[k] * excess_[k]; });
+  const Real work = -clock.dt_old * sum(count(), [&](Index k) {
+    return 0.5 * volume_rate_[k] * (excess_before_[k] + excess_[k]);
+  });
   ledger.external_work += work;
   world.maxima["wall_ghost_work"] += work;
   half_step_ = 0.5 * clock.dt;

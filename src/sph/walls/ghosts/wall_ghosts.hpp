@@ -66,7 +66,7 @@ class WallGhosts : public Ghosts,
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
 
-  void refreshed(World& world, const Clock&, std::span<const Index>) override { relist(world); }
+  void refreshed(World& world, const Clock&, std::span<const Index>) override;
   void keep(Archive& archive) override;
   void relist(World& world) override;
 
@@ -98,6 +98,8 @@ class WallGhosts : public Ghosts,
   void find_places(const World& world, std::vector<PartFrame::Place>& places) const;
   void set_places(World& world) const;
   void set_velocities(World& world) const;
+  bool is_alone(const World& world, Index i) const;
+  void relax_lone(World& world);
   void follow_driven(const World& world, const Clock& clock);
   void set_pressures(World& world);
   GhostArrays arrays(World& world);
@@ -114,6 +116,8 @@ class WallGhosts : public Ghosts,
   Index part_ = 0;  ///< of the water, for loads
   BodyAcceleration loads_;
   BodyAcceleration::At loads_now_;
+  std::vector<Real> ro_;  ///< by part [M/L3]
+  Field<Real>& reference_volume_;
   Field<Real>& pressure_;
   Field<Real>* potential_ = nullptr;  ///< where density diffuses
   Field<Real>* stress_ = nullptr;
@@ -134,7 +138,7 @@ class WallGhosts : public Ghosts,
     std::array<Index, Neighbours::groups_per_block + 1> start{};
   };
   std::vector<List> lists_, seen_;  ///< of each block of ghosts, the particles near; of particles, the ghosts
-  Array<Real> rise_[3], force_[3], value_, excess_, squeeze_, volume_rate_;
+  Array<Real> rise_[3], force_[3], value_, excess_, excess_before_, saved_excess_, squeeze_, volume_rate_;
   Real half_step_ = 0;        ///< half of the last step that was chosen [T]
   std::vector<Index> shown_;  ///< segments that have forces of this step
 };
