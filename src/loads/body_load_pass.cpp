@@ -112,7 +112,7 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
   }
 
   // Loads that are not uniform do not change along a period (check_body_loads_periodic).
-  static Real rise_of_brought_back(const BodyAcceleration::At& now, const GhostParticles& ghosts) {
+  static Real rise_of_brought_back(const BodyAcceleration::At& now, const Ghosts& ghosts) {
     Real sum = 0;
     for (const auto& [part, shift] : ghosts.brought_back()) sum += now.rise(Vec::Zero(), shift, part);
     return sum;

@@ -36,12 +36,34 @@ ParticleLoops::Range depth_range(const ParticleLoops& loops, const GhostPlane& p
 /// What loads give at a place, a time, to a part [L/T2]
 using Acceleration = std::function<Vec(const Vec& x, Real t, Index part)>;
 
+/// Neighbours that are no particles: they have no lists, and pair loops take them like any other. They stand
+/// behind all particles in the fields that are exchanged, from index particles.size() on.
+class Ghosts : public Exchanger {
+ public:
+  /// Before sorting: brings back particles [0, n) that are outside of the scene.
+  virtual void bring_back(World& /*world*/, Index /*n*/) {}
+  /// Of each part, sum of mass times shift of the active particles that the last call brought back. [ML]
+  virtual const std::map<Index, Vec>& brought_back() const {
+    static const std::map<Index, Vec> none;
+    return none;
+  }
+  /// Finds the ghosts that particles within `support` + `skin` may see, makes room for them and sets their
+  /// places; nothing of earlier ghosts is kept. [L]
+  virtual void build(World& world, Real support, Real skin) = 0;
+  virtual Index count() const = 0;
+  /// Puts ghost k at order[k]'s place.
+  virtual void sort(World& world, std::span<const Index> order) = 0;
+  /// The particle of which ghost k, entity particles.size() + k, is a copy; -1: of none.
+  virtual Index source(Index /*k*/) const { return -1; }
+  /// How far any of them has moved by itself since `build`. [L]
+  virtual Real largest_move(const World& /*world*/) const { return 0; }
+};
+
 /// Ghost particles behind planes: neighbours that the pair loops take like any other. A particle within
 /// reach of a mirror has a copy behind it with reflected velocity and stress; one near a periodic plane has a
-/// copy beyond the other plane. Ghosts stand behind all particles in the fields that are exchanged, from
-/// index particles.size() on. A particle that has gone through a mirror changes places with its ghost, which
-/// is the same flow; one that has gone through a periodic plane comes back at the other.
-class GhostParticles : public Exchanger {
+/// copy beyond the other plane. A particle that has gone through a mirror changes places with its ghost,
+/// which is the same flow; one that has gone through a periodic plane comes back at the other.
+class GhostParticles : public Ghosts {
  public:
   /// Planes must be perpendicular to each other, or parallel and farther apart than particles reach.
   explicit GhostParticles(std::vector<GhostPlane> planes);
@@ -52,21 +74,16 @@ class GhostParticles : public Exchanger {
   /// away from it, where it would have turned round: the speed across the mirror gives back what that was too
   /// much.
   std::shared_ptr<Relocation> make_mirrors(Acceleration loads) const;
-  /// Brings back particles [0, n) that are outside.
-  void bring_back(World& world, Index n);
-  /// Of each part, sum of mass times shift of the active particles that the last call brought back through
-  /// periodic planes [ML]
-  const std::map<Index, Vec>& brought_back() const { return brought_back_; }
+  void bring_back(World& world, Index n) override;
+  /// Through periodic planes.
+  const std::map<Index, Vec>& brought_back() const override { return brought_back_; }
 
-  /// Finds which particles [0, moving) have ghosts within `support` + `skin` of the planes, makes room for
-  /// them and puts them there; nothing of earlier ghosts is kept. Throws RunError where h has grown so much
-  /// that support reaches from one plane to the one opposite. [L]
-  void build(World& world, Real support, Real skin);
-  Index count() const { return static_cast<Index>(source_.size()); }
-  /// The particle of which ghost k, entity particles.size() + k, is a copy.
-  Index source(Index k) const { return source_[k]; }
-  /// Puts ghost k at order[k]'s place.
-  void sort(World& world, std::span<const Index> order);
+  /// Ghosts of particles [0, moving). Throws RunError where h has grown so much that support reaches from one
+  /// plane to the one opposite.
+  void build(World& world, Real support, Real skin) override;
+  Index count() const override { return static_cast<Index>(source_.size()); }
+  Index source(Index k) const override { return source_[k]; }
+  void sort(World& world, std::span<const Index> order) override;
 
   void exchange(World& world, std::span<const FieldBase* const> fields) override;
   void exchange_all(World& world) override;

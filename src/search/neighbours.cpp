@@ -215,6 +215,28 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
   });
 }
 
+void Neighbours::add_active_near(const World& world, Index first, Index count, std::vector<Index>& to) const {
+  const Particles& p = world.particles;
+  const NearQuery q{p.x.data(0), p.x.data(1), world.dim == 3 ? p.x.data(2) : nullptr,
+                    p.h.data(),  first,       count,
+                    skin_,       support_,    h_min_ == h_max_};
+  Vec low = p.x.vec(first), high = low;
+  for (Index k = first + 1; k < first + count; ++k) {
+    low = low.cwiseMin(p.x.vec(k));
+    high = high.cwiseMax(p.x.vec(k));
+  }
+  thread_local GroupNeighbours near;
+  near.found = {};
+  grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first_cell, Index last_cell) {
+    const Index begin = active_start_[first_cell], end = active_start_[last_cell + 1];
+    if (begin >= end) return;
+    near.make_room(end - begin);
+    near_.find(q, begin, end, near.found);
+  });
+  to.insert(to.end(), near.within.begin(), near.within.begin() + near.found.within_count);
+  to.insert(to.end(), near.beyond.begin(), near.beyond.begin() + near.found.beyond_count);
+}
+
 void Neighbours::build_ghosts(World& world) {
   Particles& p = world.particles;
   ghosts_->build(world, support_ * h_max_, skin_);
@@ -327,6 +349,7 @@ void Neighbours::find_moving_nodes(const World& world) {
 }
 
 bool Neighbours::nodes_moved(const World& world) const {
+  if (ghosts_ && !(ghosts_->largest_move(world) < 0.5 * skin_)) return true;
   for (std::size_t k = 0; k < moving_nodes_.size(); ++k)
     if (!((world.nodes.x.vec(moving_nodes_[k]) - nodes_built_[k]).norm() < 0.5 * skin_)) return true;
   return false;

@@ -44,9 +44,9 @@ class Neighbours {
   /// Smoothing lengths never change, so nobody need look whether they have grown.
   void keep_h() { h_changes_ = false; }
 
-  /// From now on the lists also hold ghosts of particles behind planes.
-  void set_ghosts(std::shared_ptr<GhostParticles> ghosts) { ghosts_ = std::move(ghosts); }
-  const GhostParticles* ghosts() const { return ghosts_.get(); }
+  /// From now on the lists also hold these ghosts.
+  void set_ghosts(std::shared_ptr<Ghosts> ghosts) { ghosts_ = std::move(ghosts); }
+  const Ghosts* ghosts() const { return ghosts_.get(); }
   /// Particles in the state particle_waiting become active when they cross the plane that `inlet` counts from
   /// 0 (and are inside the box, where there is one). Call before the first refresh.
   void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet);
@@ -111,6 +111,10 @@ class Neighbours {
   std::int64_t entries() const { return entries_; }  ///< of all lists
   std::int64_t entries_once() const { return entries_once_; }
 
+  /// Appends the active particles within support + skin of any of `count` <= 8 entities from `first` on, as
+  /// of the last rebuild; of ghosts, which have no lists.
+  void add_active_near(const World& world, Index first, Index count, std::vector<Index>& to) const;
+
   /// Others within support max(h_i, h_j) of particle i, active here. For tests and reports: slow.
   std::vector<Index> of(const Particles& p, Index i) const;
 
@@ -170,7 +174,7 @@ class Neighbours {
   std::int64_t built_cycle_ = 0;
   Real h_max_ = 0, h_min_ = 0;
   CellGrid grid_;
-  std::shared_ptr<GhostParticles> ghosts_;  ///< null: none
+  std::shared_ptr<Ghosts> ghosts_;  ///< null: none
   /// First sorted particle of each cell, and the end: parts of starts_ and ghost_starts_; empty: there are
   /// none.
   std::span<const Index> active_start_, halo_start_, ghost_start_;

@@ -9,6 +9,7 @@
 #include "sph/core/pair_passes.hpp"
 #include "sph/core/view.hpp"
 #include "sph/materials/strength.hpp"
+#include "sph/walls/ghosts/wall_ghosts.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -412,7 +413,8 @@ SphSettings build_particles(const Deck& deck, const Model& model,
 }
 
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
-                                     std::shared_ptr<Neighbours> neighbours) {
+                                     std::shared_ptr<Neighbours> neighbours,
+                                     const std::shared_ptr<WallGhosts>& wall_ghosts) {
   std::vector<PassNote> left_out;
   const auto volumes = make_pair_volumes(world);
   const auto add_or_tell = [&](bool on, auto add, const char* name, const char* reason) {
@@ -424,9 +426,12 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   const PairPasses pairs = make_pair_passes(s, world, neighbours, volumes);
   for (const auto& pass : pairs.rates) world.passes.add(pass);
   std::shared_ptr<Force> wall_images;
-  if (!s.walls.segments.empty())
+  if (wall_ghosts) {
+    wall_ghosts->set_volumes(volumes);
+    add_wall_ghost_forces(world, wall_ghosts);
+  } else if (!s.walls.segments.empty()) {
     wall_images = add_wall_support(s, world, neighbours, volumes);
-  else
+  } else
     left_out.push_back({"wall support", "no *COURANT_WALL_SUPPORT"});
   add_or_tell(s.renormalised, add_renormalisation, "renormalisation", "FORM of *CONTROL_SPH is a plain one");
   const bool riemann = std::holds_alternative<RiemannFlux>(s.viscosity);

@@ -15,16 +15,18 @@
 #include "sph/outlets/level_outlet.hpp"
 #include "sph/skin.hpp"
 #include "sph/sph.hpp"
+#include "sph/walls/ghosts/wall_ghosts.hpp"
 #include "state/ranges.hpp"
 
 namespace courant {
 
 namespace {
 
-/// Copies of particles behind planes.
+/// Ghosts behind planes, and behind shells.
 struct Ghosts {
   std::vector<GhostPlane> planes{};
-  std::shared_ptr<Relocation> mirrors{};  ///< null: none
+  std::shared_ptr<Relocation> mirrors{};   ///< null: none
+  std::shared_ptr<WallGhosts> of_walls{};  ///< null: none
 };
 
 void add_inlets(const Deck& deck, Model& model, Diagnostics& diagnostics, Injections& injections) {
@@ -106,6 +108,12 @@ void find_neighbours(const Deck& deck, const Model& model, World& world, Diagnos
   make_injected_wait(injections, world, *neighbours);
   if (injections.inlets.empty()) left_out.add("inlets", "no *DEFINE_SPH_INJECTION");
   add_ghosts(deck, model, world, diagnostics, left_out, h, *neighbours, settings, ghosts);
+  ghosts.of_walls = build_wall_ghosts(deck, model, settings, world, diagnostics);
+  if (ghosts.of_walls) {
+    ghosts.of_walls->set_lists(*neighbours);
+    neighbours->set_ghosts(ghosts.of_walls);
+    world.passes.add(ghosts.of_walls);
+  }
   for (const GhostPlane& plane : settings.mirrors) limits.mirrors.push_back(plane.normal);
   rules = {true, settings.skip_inactive_contact, settings.thickness_from_volume, neighbours->largest_skin()};
 }
@@ -141,7 +149,7 @@ void add_passes(const Deck& deck, const Model& model, World& world, Diagnostics&
   add_drifts(settings, acceleration, world);
   if (ghosts.mirrors) world.passes.add(ghosts.mirrors);
   add_sph_time_limit(settings, model, world);
-  for (PassNote& note : add_sph_passes(world, settings, neighbours))
+  for (PassNote& note : add_sph_passes(world, settings, neighbours, ghosts.of_walls))
     left_out.notes.push_back(std::move(note));
   add_mirror_core(settings, ghosts.planes, world);
   if (model.body_loads.empty())

@@ -20,6 +20,7 @@
 namespace courant {
 
 class StrengthLaw;
+class WallGhosts;
 
 /// Artificial viscosity between pairs (IAVIS 0), eqs 15-16; q1 comes per particle as viscous_speed = q1 c.
 struct MonaghanViscosity {
@@ -74,6 +75,7 @@ struct SupportedWalls {
   std::vector<WallFriction> friction;  ///< by segment
   std::vector<GhostPlane> planes;      ///< behind which their images support, too
   bool images = false;                 ///< METHOD 1: as mirrors of the particles
+  std::vector<Index> with_ghosts;      ///< METHOD 2: shells behind which fixed ghost particles stand
   bool hold = false;                   ///< any by LAW 2: no slip
   WallBelts belts;                     ///< *COURANT_WALL_BELT
 };
@@ -163,7 +165,8 @@ std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model,
 
 /// Adds the SPH passes the settings ask for to the world, and names those left out with the reason.
 std::vector<PassNote> add_sph_passes(World& world, const SphSettings& settings,
-                                     std::shared_ptr<Neighbours> neighbours);
+                                     std::shared_ptr<Neighbours> neighbours,
+                                     const std::shared_ptr<WallGhosts>& wall_ghosts);
 
 /// What holds particles off mirrors among `planes`; nothing where there are none. Behind `add_sph_passes`.
 void add_mirror_core(const SphSettings& settings, const std::vector<GhostPlane>& planes, World& world);

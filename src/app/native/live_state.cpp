@@ -70,7 +70,7 @@ pybind11::array LiveState::array(const std::string& set, const std::string& fiel
     throw pybind11::key_error(fmt::format("{} have no field '{}'", set, field));
   Index ghosts = 0;
   if (found->info().exchange)
-    for (const auto* behind : now().world().passes.all<GhostParticles>()) ghosts += behind->count();
+    for (const auto* behind : now().world().passes.all<Ghosts>()) ghosts += behind->count();
   return lent_.get(*found, component, of.size(), ghosts);
 }
 

@@ -97,7 +97,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
       for (const Index j : neighbours_->listed(g)) {
         const Index of = j < p.size() ? j : neighbours_->ghosts()->source(j - p.size());
         if (of < p.active)
-          continue;  // what active particles and ghosts of such do to each other stays inside
+          continue;  // what active particles and ghosts of such, or of nothing, do to each other stays inside
         for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)
           if ((p.x.vec(i) - p.x.vec(j)).norm() <
               neighbours_->support() * std::max(p.h[i], p.h[of]) + neighbours_->skin())

@@ -29,6 +29,13 @@ void PairVolumes::pretend(const Array<Real>& volumes) {
   std::copy(volumes.begin(), volumes.end(), fields_[current_]->data());
 }
 
+void PairVolumes::set_ghosts(const World& world, Index count, Real volume) {
+  for (Field<Real>* field : fields_) {
+    Real* const first = field->data() + world.particles.size();
+    std::fill(first, first + count, volume);
+  }
+}
+
 // The halo, too: its density does not change, so nobody works on it in between.
 void PairVolumes::fill(World& world) {
   const Particles& p = world.particles;

@@ -1,5 +1,6 @@
 #pragma once
 // Surfaces of walls that move along themselves while their shells stand: belts, lids, rims of drums.
+#include <array>
 #include <vector>
 
 #include "keyword/card.hpp"
@@ -14,6 +15,10 @@ struct WallMotion {
   /// Velocity of what moves with it at x [L/T].
   Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
 };
+
+/// How a rigid body moves three points of which have these places and velocities; in 2D the first two count.
+/// They are not on one line. [L], [L/T]
+WallMotion rigid_motion(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, int dim);
 
 /// Of each segment the belt that it belongs to; where there is none, `of_segment` is empty.
 struct WallBelts {

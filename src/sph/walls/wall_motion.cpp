@@ -4,11 +4,9 @@
 
 namespace courant {
 
-namespace {
-
-/// How a flat rigid face moves whose corners 0, 1 and 2 have these places and velocities: omega = 1/2 sum g_k
-/// x (omega x e_k) over any basis e with its reciprocal g, the third of which is the normal.
-WallMotion motion_of(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, int dim) {
+// omega = 1/2 sum g_k x (omega x e_k) over any basis e with its reciprocal g, the third of which is the
+// normal
+WallMotion rigid_motion(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, int dim) {
   WallMotion out{x[0], v[0], Vec::Zero()};
   const Vec e1 = x[1] - x[0], u1 = v[1] - v[0];
   if (dim == 2) {
@@ -23,8 +21,6 @@ WallMotion motion_of(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, i
   return out;
 }
 
-}  // namespace
-
 void WallSurface::take_along(std::vector<Face>& faces, std::vector<WallMotion>& motions, const World& world,
                              Real back) const {
   const auto x = [&](Index node) { return Vec(world.nodes.x.vec(node) - back * world.nodes.v.vec(node)); };
@@ -38,14 +34,14 @@ void WallSurface::take_along(std::vector<Face>& faces, std::vector<WallMotion>& 
       at = {node[first], node[last], node[last]};
       const Vec z(0, 0, reach_), one = in_plane(x(at[0])), other = in_plane(x(at[1]));
       face.x = {Vec(one - z), Vec(other - z), Vec(other + z), Vec(one + z)};
-      motion =
-          motion_of({one, other, other},
-                    {in_plane(world.nodes.v.vec(at[0])), in_plane(world.nodes.v.vec(at[1])), Vec::Zero()}, 2);
+      motion = rigid_motion(
+          {one, other, other},
+          {in_plane(world.nodes.v.vec(at[0])), in_plane(world.nodes.v.vec(at[1])), Vec::Zero()}, 2);
     } else {
       for (std::size_t e = 0; e < 4; ++e) face.x[e] = x(node[e]);
       std::array<Vec, 3> v;
       for (std::size_t e = 0; e < 3; ++e) v[e] = world.nodes.v.vec(at[e]);
-      motion = motion_of({face.x[0], face.x[1], face.x[2]}, v, 3);
+      motion = rigid_motion({face.x[0], face.x[1], face.x[2]}, v, 3);
     }
     face.find_plane();
   };

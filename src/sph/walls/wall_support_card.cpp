@@ -18,21 +18,21 @@ namespace {
 const RegisterKeyword<CourantWallSupport> wall_support_keyword{courant_wall_support_table()};
 
 /// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
-/// wall, or where mirrors do, holds them before that. Images of wide kernels hardly push particles off a
-/// wall: there contact at half a spacing keeps still water still.
+/// wall, or where mirrors and ghosts do, holds them before that. Images of wide kernels hardly push particles
+/// off a wall: there contact at half a spacing keeps still water still.
 void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& deck, const World& world,
                      KernelChoice kernel, Diagnostics& diagnostics) {
   constexpr Real wide = 3.9;  // spacings that the kernel reaches
   const Particles& p = world.particles;
   const Real dx = p.size() > 0 ? std::pow(p.m[0] / p.rho[0], 1.0 / world.dim) : 0;
-  if (c.method == 1) {
-    const bool is_wide = p.size() > 0 && kernel_support(kernel) * p.h[0] > wide * dx;
+  if (c.method > 0) {
+    const bool is_wide = c.method == 1 && p.size() > 0 && kernel_support(kernel) * p.h[0] > wide * dx;
     if (thickness > (is_wide ? 1.05 : 0.5) * dx)
       diagnostics.warning(
           deck.where(c),
           fmt::format("*COURANT_WALL_SUPPORT: contact holds particles {:g} off the middle of the shells and "
-                      "carries part of what METHOD 1 should, which holds them half a spacing off, {:g}",
-                      0.5 * thickness, 0.5 * dx),
+                      "carries part of what METHOD {} should, which holds them half a spacing off, {:g}",
+                      0.5 * thickness, c.method, 0.5 * dx),
           "let the shells be 0.4 spacings of the particles thick");
     return;
   }
@@ -61,6 +61,30 @@ void check_images(const CourantWallSupport& c, const Deck& deck, const Model& mo
   };
   refuse(std::any_of(s.walls.segments.begin(), s.walls.segments.end(), bends),
          "on walls that move and are no rigid bodies", "use METHOD 0, or make them of *MAT_RIGID");
+}
+
+/// What METHOD 2 cannot do: ghosts have no more than pair loops of plain water read of neighbours.
+void check_ghosts(const CourantWallSupport& c, const Deck& deck, const Model& model, const SphSettings& s,
+                  Diagnostics& diagnostics) {
+  const auto refuse = [&](bool is, const char* what, const char* hint = "use METHOD 1 or 0") {
+    if (is) deck.error(diagnostics, c, "METHOD", fmt::format("METHOD 2 is not supported {}", what), hint);
+  };
+  const char* const one_h = "use METHOD 0, or one CSLH and spacing, HMIN = HMAX = 1";
+  refuse(!s.uniform_h, "where smoothing lengths differ", one_h);
+  refuse(s.renormalised, "where FORM of *CONTROL_SPH renormalises", "use METHOD 0, or FORM 0");
+  refuse(s.geometry_eps > 0, "with *COURANT_PAIR_GEOMETRY");
+  refuse(!s.strength.empty(), "beside particles with strength");
+  refuse(std::holds_alternative<RiemannFlux>(s.viscosity), "with *COURANT_RIEMANN");
+  refuse(s.volume_tau > 0, "with *COURANT_VOLUME_CONTROL");
+  refuse(s.shift.strength > 0, "with shifting (ISHIFT of *CONTROL_SPH)");
+  refuse(s.xsph > 0 || s.velocity_smoothing > 0, "with *COURANT_XSPH");
+  refuse(s.reinitialisation.every > 0, "with *COURANT_DENSITY_REINITIALISATION");
+  refuse(s.mixing_length.most > 0 || deck.last<CourantTurbulence>() != nullptr, "with a model of turbulence");
+  refuse(c.cf > 0 || c.law != 0, "with friction (CF, LAW)");
+  refuse(deck.last<CourantWallBelt>() != nullptr, "with *COURANT_WALL_BELT");
+  refuse(deck.last<BoundarySphSymmetryPlane>() != nullptr || deck.last<BoundarySphPeriodic>() != nullptr,
+         "beside symmetry or periodic planes");
+  refuse(!parts_of_several_materials(model).empty(), "where SPH parts differ in MID or EOSID");
 }
 
 /// What walls without slip ask for.
@@ -149,11 +173,13 @@ void read_supported_walls(const Deck& deck, const Model& model, const World& wor
                  "give all of them the same METHOD");
     first = &c;
     walls.images = c.method == 1;
+    if (c.method == 2) check_ghosts(c, deck, model, settings, diagnostics);
     if (walls.images) check_images(c, deck, model, world, settings, diagnostics);
     check_friction(c, deck, model, settings, diagnostics);
     if (thickness > 0) check_thickness(c, thickness, deck, world, settings.kernel, diagnostics);
   }
   read_wall_belts(deck, model, world, settings, diagnostics);
+  if (first && first->method == 2) walls.with_ghosts.swap(walls.segments);
 }
 
 }  // namespace courant

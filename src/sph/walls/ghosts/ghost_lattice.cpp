@@ -1,0 +1,518 @@
+#include "sph/walls/ghosts/ghost_lattice.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "parallel/parallel.hpp"
+
+namespace courant {
+
+namespace {
+
+constexpr double most_points = 5e8;       ///< of the lattice: two bytes each
+constexpr Real on_wall = 0.02;            ///< of a spacing: points so near a shell are on it
+constexpr Real widened = 0.25;            ///< of a spacing: shells block so far beyond their edges
+constexpr Real most_in_front = 0.49;      ///< of a spacing: water keeps half a spacing off
+constexpr Real level_tolerance = 1e-6;    ///< of a spacing
+constexpr Real right_behind = 1e-3;       ///< of a spacing: a foot so far past an edge is on it
+constexpr Real least_angle_cosine = 0.9;  ///< between normals of faces that meet at a corner
+
+/// A flat piece of wall: a triangle, in 2D a line.
+struct Facet {
+  std::array<Vec, 3> x;
+  Vec n = Vec::Zero();
+  Index segment = 0;
+  Index part = 0;
+  bool wet[2]{false, false};  ///< whether water can reach its side along n, and the other one
+  bool used() const { return wet[0] != wet[1]; }
+  /// 1 where n points out of the water, -1 else.
+  Real outwards() const { return wet[1] ? 1 : -1; }
+};
+
+class Layer {
+ public:
+  Layer(const World& world, const std::vector<Index>& segments, const std::vector<char>& moves,
+        const GhostLattice& lattice)
+      : world_(world), moves_(moves), to_(lattice), dx_(lattice.spacing) {
+    for (const Index s : segments) add_facets(s);
+  }
+
+  LaidGhosts lay() {
+    LaidGhosts out;
+    if (facets_.empty() || !cover()) {
+      out.too_large = !facets_.empty();
+      return out;
+    }
+    find_closed_parts();
+    // held walls, then those that move: they see other water
+    std::vector<std::int8_t> taken(state_.size(), 0);
+    for (const bool moving : {false, true}) {
+      std::vector<Facet*> mine;
+      for (Facet& f : facets_)
+        if (is_moving(f) == moving) mine.push_back(&f);
+      if (mine.empty()) continue;
+      flood(moving);
+      for (Facet* f : mine) look_at_sides(*f);
+      report(mine, out);
+      place(mine, taken, out);
+    }
+    return out;
+  }
+
+ private:
+  bool is_moving(const Facet& f) const { return moves_[static_cast<std::size_t>(f.segment)] != 0; }
+  Vec flat(const Vec& x) const { return to_.dim == 2 ? Vec(x[0], x[1], 0) : x; }
+
+  void add_facets(Index segment) {
+    const auto nodes = world_.segments.nodes(segment);
+    std::array<Vec, 4> x;
+    for (std::size_t e = 0; e < 4; ++e) x[e] = flat(world_.nodes.x.vec(nodes[e]));
+    Facet f;
+    f.segment = segment;
+    f.part = world_.segments.part[segment];
+    if (to_.dim == 2) {  // the line that the shell has in the plane of the flow
+      Vec a = x[0], b = x[0];
+      for (const Vec& p : x)
+        if ((p - a).norm() > (b - a).norm()) b = p;
+      if (!((b - a).norm() > right_behind * dx_)) return;  // it lies in the plane
+      f.x = {a, b, b};
+      f.n = Vec(a[1] - b[1], b[0] - a[0], 0).normalized();
+      facets_.push_back(f);
+      return;
+    }
+    for (const auto& [second, third] : {std::pair{1, 2}, {2, 3}}) {
+      f.x = {x[0], x[static_cast<std::size_t>(second)], x[static_cast<std::size_t>(third)]};
+      const Vec area = (f.x[1] - f.x[0]).cross(f.x[2] - f.x[0]);
+      if (!(area.norm() > 1e-12 * dx_ * dx_)) continue;
+      f.n = area.normalized();
+      facets_.push_back(f);
+    }
+  }
+
+  /// Parts all of whose edges belong to two facets: they hold something, wherever they go.
+  void find_closed_parts() {
+    using Corner = std::array<std::int64_t, 3>;
+    const auto corner = [&](const Vec& x) {
+      Corner c{};
+      for (std::size_t k = 0; k < 3; ++k) c[k] = std::llround(x[static_cast<Index>(k)] / (0.01 * dx_));
+      return c;
+    };
+    std::map<Index, std::map<std::pair<Corner, Corner>, int>> edges;
+    for (const Facet& f : facets_) {
+      auto& of = edges[f.part];
+      if (to_.dim == 2) {
+        for (const Vec& x : {f.x[0], f.x[1]}) ++of[{corner(x), corner(x)}];
+        continue;
+      }
+      for (std::size_t e = 0; e < 3; ++e) {
+        const Corner a = corner(f.x[e]), b = corner(f.x[(e + 1) % 3]);
+        ++of[{std::min(a, b), std::max(a, b)}];
+      }
+    }
+    for (const auto& [part, of] : edges) {
+      bool closed = true;
+      for (const auto& [edge, count] : of) closed = closed && count % 2 == 0;
+      closed_[part] = closed;
+    }
+  }
+
+  /// The lattice around shells and water. False where it would be too large.
+  bool cover() {
+    const Particles& p = world_.particles;
+    low_ = high_ = facets_[0].x[0];
+    const auto take = [&](const Vec& x) { low_ = low_.cwiseMin(x), high_ = high_.cwiseMax(x); };
+    for (const Facet& f : facets_)
+      for (const Vec& x : f.x) take(x);
+    level_ = -1e300;
+    for (Index i = 0; i < p.size(); ++i) {
+      if (p.state[i] == particle_waiting || p.state[i] == particle_deactivated) continue;
+      take(flat(p.x.vec(i)));
+      level_ = std::max(level_, flat(p.x.vec(i)).dot(to_.up));
+    }
+    const Real around = to_.reach + 2 * dx_;
+    double total = 1;
+    for (Index k = 0; k < to_.dim; ++k) {
+      first_[k] = static_cast<std::int64_t>(std::floor((low_[k] - around - to_.origin[k]) / dx_));
+      const auto last = static_cast<std::int64_t>(std::ceil((high_[k] + around - to_.origin[k]) / dx_));
+      count_[k] = last - first_[k] + 1;
+      total *= static_cast<double>(count_[k]);
+    }
+    if (!(total < most_points)) return false;
+    stride_[0] = 1, stride_[1] = count_[0], stride_[2] = count_[0] * count_[1];
+    state_.assign(static_cast<std::size_t>(total), 0);
+    return true;
+  }
+
+  using Cell = std::array<std::int64_t, 3>;
+  std::size_t index(const Cell& c) const {
+    return static_cast<std::size_t>(c[0] * stride_[0] + c[1] * stride_[1] + c[2] * stride_[2]);
+  }
+  Cell cell(std::size_t i) const {
+    auto rest = static_cast<std::int64_t>(i);
+    Cell c{};
+    for (int k = 2; k >= 0; --k) c[static_cast<std::size_t>(k)] = rest / stride_[k], rest %= stride_[k];
+    return c;
+  }
+  Vec place_of(const Cell& c) const {
+    Vec x = Vec::Zero();
+    for (Index k = 0; k < to_.dim; ++k)
+      x[k] = to_.origin[k] + dx_ * static_cast<Real>(first_[k] + c[static_cast<std::size_t>(k)]);
+    return x;
+  }
+  bool holds(const Cell& c) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (c[k] < 0 || c[k] >= (static_cast<Index>(k) < to_.dim ? count_[k] : 1)) return false;
+    return true;
+  }
+  /// Cells from `low` to `high`, within the lattice.
+  std::pair<Cell, Cell> cells_between(const Vec& low, const Vec& high) const {
+    Cell a{}, b{};
+    for (Index k = 0; k < to_.dim; ++k) {
+      const auto at = [&](Real x) {
+        return std::clamp(static_cast<std::int64_t>(std::floor((x - to_.origin[k]) / dx_)) - first_[k],
+                          std::int64_t(0), count_[k] - 1);
+      };
+      a[static_cast<std::size_t>(k)] = at(low[k]);
+      b[static_cast<std::size_t>(k)] = std::min(at(high[k]) + 1, count_[k] - 1);
+    }
+    return {a, b};
+  }
+  template <class F>
+  void for_each_cell(const std::pair<Cell, Cell>& range, F&& f) const {
+    const auto& [a, b] = range;
+    for (Cell c = a; c[2] <= b[2]; ++c[2])
+      for (c[1] = a[1]; c[1] <= b[1]; ++c[1])
+        for (c[0] = a[0]; c[0] <= b[0]; ++c[0]) f(c);
+  }
+
+  // ---- where water gets ----
+
+  static constexpr std::uint8_t wet = 1, on_shell = 2, occupied = 32,
+                                blocked = 4;  ///< blocked << k: on the way to the next one
+
+  /// Whether the line along axis k through x meets a facet, and where.
+  bool meets(const Facet& f, Index k, const Vec& x, Real& at) const {
+    if (std::abs(f.n[k]) < 1e-9) return false;
+    at = x[k] + f.n.dot(f.x[0] - x) / f.n[k];
+    Vec q = x;
+    q[k] = at;
+    return past_edges(f, q) <= widened * dx_;
+  }
+  /// How far q, in the plane of the facet, is outside of its edges; < 0: inside. [L]
+  Real past_edges(const Facet& f, const Vec& q) const {
+    if (to_.dim == 2) {
+      const Vec along = (f.x[1] - f.x[0]).normalized();
+      const Real s = (q - f.x[0]).dot(along);
+      return std::max(-s, s - (f.x[1] - f.x[0]).norm());
+    }
+    Real most = -1e300;
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Vec edge = f.x[(e + 1) % 3] - f.x[e];
+      most = std::max(most, -f.n.cross(edge).normalized().dot(q - f.x[e]));
+    }
+    return most;
+  }
+
+  void block(const Facet& f) {
+    const Vec low = f.x[0].cwiseMin(f.x[1]).cwiseMin(f.x[2]), high = f.x[0].cwiseMax(f.x[1]).cwiseMax(f.x[2]);
+    const Vec margin = Vec::Constant(1.01 * dx_);
+    const auto range = cells_between(low - margin, high + margin);
+    for (Index k = 0; k < to_.dim; ++k) {
+      auto lines = range;
+      const auto axis = static_cast<std::size_t>(k);
+      lines.second[axis] = lines.first[axis];
+      for_each_cell(lines, [&](const Cell& start) {
+        Real at = 0;
+        if (!meets(f, k, place_of(start), at)) return;
+        const Real steps = (at - to_.origin[k]) / dx_ - static_cast<Real>(first_[k]);
+        const auto before = static_cast<std::int64_t>(std::floor(steps));
+        const Real past = steps - static_cast<Real>(before);
+        const auto block_from = [&](std::int64_t from) {
+          Cell c = start;
+          c[axis] = from;
+          if (holds(c)) state_[index(c)] |= static_cast<std::uint8_t>(blocked << k);
+        };
+        const auto mark = [&](std::int64_t point) {
+          Cell c = start;
+          c[axis] = point;
+          if (holds(c)) state_[index(c)] |= on_shell;
+        };
+        block_from(before);
+        if (past < on_wall) block_from(before - 1), mark(before);
+        if (past > 1 - on_wall) block_from(before + 1), mark(before + 1);
+      });
+    }
+  }
+
+  /// Whether water may be there at all.
+  bool is_in_scene(const Vec& x) const {
+    for (Index k = 0; k < to_.dim; ++k) {
+      if (x[k] < low_[k] - level_tolerance * dx_ && to_.up[k] > -0.5) return false;
+      if (x[k] > high_[k] + level_tolerance * dx_ && to_.up[k] < 0.5) return false;
+    }
+    return true;
+  }
+
+  void flood(bool moving) {
+    std::fill(state_.begin(), state_.end(), std::uint8_t(0));
+    for (const Facet& f : facets_)
+      if (moving || !is_moving(f) || closed_.at(f.part)) block(f);
+    std::vector<std::size_t> open;
+    const auto reach = [&](std::size_t i) {
+      if ((state_[i] & (wet | on_shell)) != 0) return;
+      state_[i] |= wet;
+      open.push_back(i);
+    };
+    const Particles& p = world_.particles;
+    for (Index i = 0; i < p.size(); ++i) {
+      if (p.state[i] == particle_waiting || p.state[i] == particle_deactivated) continue;
+      Cell c{};
+      for (Index k = 0; k < to_.dim; ++k)
+        c[static_cast<std::size_t>(k)] = std::llround((p.x.vec(i)[k] - to_.origin[k]) / dx_) - first_[k];
+      if (holds(c)) state_[index(c)] |= occupied;
+      if (holds(c) && can_see(flat(p.x.vec(i)), place_of(c))) reach(index(c));
+    }
+    const Real most = level_ + 0.5 * dx_;
+    while (!open.empty()) {
+      const std::size_t i = open.back();
+      open.pop_back();
+      const Cell c = cell(i);
+      const Real height = place_of(c).dot(to_.up);
+      for (Index k = 0; k < to_.dim; ++k)
+        for (const int way : {-1, 1}) {
+          Cell next = c;
+          next[static_cast<std::size_t>(k)] += way;
+          if (!holds(next)) continue;
+          const std::size_t j = index(next);
+          if ((state_[way > 0 ? i : j] & (blocked << k)) != 0) continue;
+          const Vec x = place_of(next);
+          const Real to = x.dot(to_.up);
+          if (!is_in_scene(x) || (to > most && to < height - level_tolerance * dx_)) continue;
+          reach(j);
+        }
+    }
+  }
+
+  /// Whether no facet stands between a particle and the lattice point next to it. Particles of the lattice
+  /// are the point.
+  bool can_see(const Vec& from, const Vec& to) const {
+    if ((to - from).norm() < right_behind * dx_) return true;
+    bool is = true;
+    for_facets_near(0.5 * (from + to), [&](const Facet& f) { is = is && !crosses(f, from, to); });
+    return is;
+  }
+  bool crosses(const Facet& f, const Vec& from, const Vec& to) const {
+    const Real a = f.n.dot(from - f.x[0]), b = f.n.dot(to - f.x[0]);
+    return a * b < 0 && past_edges(f, from + a / (a - b) * (to - from)) <= 0;
+  }
+
+  // ---- sides of shells ----
+
+  template <class F>
+  void for_each_sample(const Facet& f, F&& take) const {
+    const Vec e1 = f.x[1] - f.x[0];
+    if (to_.dim == 2) {
+      const auto n = static_cast<int>(std::ceil(e1.norm() / dx_));
+      for (int k = 0; k < n; ++k) take(Vec(f.x[0] + (k + 0.5) / n * e1));
+      return;
+    }
+    const Vec e2 = f.x[2] - f.x[0];
+    const auto n = static_cast<int>(std::ceil(std::max({e1.norm(), e2.norm(), (e2 - e1).norm()}) / dx_));
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; a + b < n; ++b) take(Vec(f.x[0] + (a + 1.0 / 3) / n * e1 + (b + 1.0 / 3) / n * e2));
+  }
+
+  /// Which sides of a shell water can reach: it does where a wet point of the lattice stands within two
+  /// spacings of it, straight in front. What is farther off may be around a corner.
+  void look_at_sides(Facet& f) {
+    f.wet[0] = f.wet[1] = false;
+    const Real far = 1.75 * dx_;
+    for_each_sample(f, [&](const Vec& x) {
+      if (f.wet[0] && f.wet[1]) return;
+      const Vec margin = Vec::Constant(far);
+      for_each_cell(cells_between(x - margin, x + margin), [&](const Cell& c) {
+        if ((state_[index(c)] & wet) == 0) return;
+        const Vec d = place_of(c) - x;
+        const Real height = f.n.dot(d);
+        const bool front = height > 0;
+        if (f.wet[front ? 0 : 1] || !(std::abs(height) > on_wall * dx_) || d.norm() > far) return;
+        if (past_edges(f, place_of(c) - height * f.n) > 0) return;
+        // along the normal, so that no other shell can be met but one that is nearer
+        if (!between(f, place_of(c) - height * f.n, place_of(c))) f.wet[front ? 0 : 1] = true;
+      });
+    });
+  }
+
+  /// Whether another facet stands between a foot on facet f and a point over it.
+  bool between(const Facet& f, const Vec& foot, const Vec& x) const {
+    const Vec from = foot + on_wall * (x - foot);
+    bool is = false;
+    for_facets_near(0.5 * (from + x),
+                    [&](const Facet& other) { is = is || (&other != &f && crosses(other, from, x)); });
+    return is;
+  }
+
+  /// Facets that may be within two spacings of x.
+  template <class F>
+  void for_facets_near(const Vec& x, F&& f) const {
+    if (buckets_.empty()) sort_facets();
+    const auto found = buckets_.find(bucket(x));
+    if (found == buckets_.end()) return;
+    for (const Index k : found->second) f(facets_[static_cast<std::size_t>(k)]);
+  }
+  static constexpr Real bucket_size = 4;  ///< spacings
+  Cell bucket(const Vec& x) const {
+    Cell c{};
+    for (Index k = 0; k < to_.dim; ++k)
+      c[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(std::floor(x[k] / (bucket_size * dx_)));
+    return c;
+  }
+  void sort_facets() const {
+    const Vec margin = Vec::Constant(2 * dx_);
+    for (std::size_t k = 0; k < facets_.size(); ++k) {
+      const Facet& f = facets_[k];
+      const Vec low = f.x[0].cwiseMin(f.x[1]).cwiseMin(f.x[2]),
+                high = f.x[0].cwiseMax(f.x[1]).cwiseMax(f.x[2]);
+      const Real half = 0.5 * bucket_size * dx_ * std::sqrt(Real(to_.dim));
+      const Cell a = bucket(low - margin), b = bucket(high + margin);
+      for_each_cell({a, b}, [&](const Cell& c) {
+        Vec middle = Vec::Zero();
+        for (Index d = 0; d < to_.dim; ++d)
+          middle[d] = (static_cast<Real>(c[static_cast<std::size_t>(d)]) + 0.5) * bucket_size * dx_;
+        if (std::abs(f.n.dot(middle - f.x[0])) < half + 2 * dx_) buckets_[c].push_back(static_cast<Index>(k));
+      });
+    }
+  }
+
+  static void report(const std::vector<Facet*>& mine, LaidGhosts& out) {
+    const auto note = [](std::vector<Index>& to, Index segment) {
+      if (to.empty() || to.back() != segment) to.push_back(segment);
+    };
+    for (const Facet* f : mine) {
+      if (f->wet[0] && f->wet[1]) note(out.wet_on_both_sides, f->segment);
+      if (!f->wet[0] && !f->wet[1]) note(out.dry, f->segment);
+    }
+  }
+
+  // ---- ghosts ----
+
+  /// The point of a facet next to x.
+  Vec nearest(const Facet& f, const Vec& x) const {
+    const auto on_edge = [&](const Vec& a, const Vec& b) {
+      const Real t = (x - a).dot(b - a) / (b - a).squaredNorm();
+      return Vec(a + std::clamp(t, Real(0), Real(1)) * (b - a));
+    };
+    if (to_.dim == 2) return on_edge(f.x[0], f.x[1]);
+    const Vec foot = x - f.n.dot(x - f.x[0]) * f.n;
+    if (past_edges(f, foot) <= 0) return foot;
+    Vec best = on_edge(f.x[0], f.x[1]);
+    for (const auto& [a, b] : {std::pair{1, 2}, {2, 0}}) {
+      const Vec q = on_edge(f.x[static_cast<std::size_t>(a)], f.x[static_cast<std::size_t>(b)]);
+      if ((q - x).norm() < (best - x).norm()) best = q;
+    }
+    return best;
+  }
+
+  struct Candidate {
+    Real distance = 1e300;
+    bool refused = false;  ///< in front of one of the facets that meet there
+    Vec foot = Vec::Zero(), normal = Vec::Zero();
+    Index segment = -1;
+    int faces = 0;
+  };
+
+  /// A dry point is a ghost where it is right behind a facet, at any distance within the reach; or where the
+  /// nearest point of the walls is on an edge or in a corner, if it is behind all facets that meet there and
+  /// these are not in one plane: beyond the free edge of a plate is no wall.
+  void place(const std::vector<Facet*>& mine, std::vector<std::int8_t>& taken, LaidGhosts& out) {
+    std::map<std::size_t, Candidate> right, corner;
+    const Vec margin = Vec::Constant(to_.reach);
+    for (const Facet* f : mine) {
+      if (!f->used()) continue;
+      const Vec low = f->x[0].cwiseMin(f->x[1]).cwiseMin(f->x[2]) - margin,
+                high = f->x[0].cwiseMax(f->x[1]).cwiseMax(f->x[2]) + margin;
+      for_each_cell(cells_between(low, high), [&](const Cell& c) {
+        const std::size_t i = index(c);
+        if (taken[i] != 0) return;
+        const Vec x = place_of(c);
+        const Real height = f->n.dot(x - f->x[0]) * f->outwards();
+        if (std::abs(height) > to_.reach) return;
+        const Vec foot = nearest(*f, x), d = x - foot;
+        const Real distance = d.norm();
+        if (distance > to_.reach) return;
+        if ((state_[i] & wet) != 0) {  // too near the wall for water
+          const bool free = (state_[i] & occupied) == 0 && -height < most_in_front * dx_ && height < 0;
+          if (free && std::abs(distance + height) < right_behind * dx_)
+            right.try_emplace(i, Candidate{distance, false, foot, f->outwards() * f->n, f->segment, 1}),
+                corner.try_emplace(i);
+          return;
+        }
+        const bool behind = height > -on_wall * dx_;
+        if (std::abs(distance - std::abs(height)) < right_behind * dx_) {
+          Candidate& known = right[i];
+          if (behind && distance < known.distance)
+            known = {distance, false, foot, f->outwards() * f->n, f->segment, 1};
+        }
+        Candidate& known = corner[i];
+        if (distance < known.distance - right_behind * dx_)
+          known = {distance, !behind, foot, f->outwards() * f->n, f->segment, 1};
+        else if (distance < known.distance + right_behind * dx_) {
+          known.refused |= !behind;
+          if (known.normal.dot(f->outwards() * f->n) < least_angle_cosine) ++known.faces;
+        }
+      });
+    }
+    for (const auto& [i, nearest] : corner) {
+      const auto found = right.find(i);
+      const bool is_right = found != right.end() && found->second.segment >= 0;
+      const Candidate& c = is_right ? found->second : nearest;
+      if (!is_right && (nearest.refused || nearest.faces < 2)) continue;
+      taken[i] = 1;
+      out.ghosts.push_back({place_of(cell(i)), c.segment});
+    }
+    for (const Facet* f : mine)
+      if (f->used() && water_behind(*f)) out.thin.push_back(f->segment);
+  }
+
+  /// Whether water begins again within half of the reach behind a facet.
+  bool water_behind(const Facet& f) const {
+    bool is = false;
+    for_each_sample(f, [&](const Vec& x) {
+      for (Real s = 0.5; !is && s * dx_ < 0.5 * to_.reach; s += 0.5) {
+        Cell c{};
+        const Vec q = x + s * dx_ * f.outwards() * f.n;
+        for (Index k = 0; k < to_.dim; ++k)
+          c[static_cast<std::size_t>(k)] = std::llround((q[k] - to_.origin[k]) / dx_) - first_[k];
+        if (!holds(c) || (state_[index(c)] & wet) == 0) continue;
+        const Vec at = place_of(c);  // it may be in front of another wall of a corner
+        if (f.n.dot(at - f.x[0]) * f.outwards() > 0 && past_edges(f, at - f.n.dot(at - f.x[0]) * f.n) < -dx_)
+          is = true;
+      }
+    });
+    return is;
+  }
+
+  const World& world_;
+  const std::vector<char>& moves_;
+  const GhostLattice& to_;
+  Real dx_, level_ = 0;
+  std::vector<Facet> facets_;
+  std::map<Index, bool> closed_;
+  Vec low_ = Vec::Zero(), high_ = Vec::Zero();
+  std::array<std::int64_t, 3> first_{0, 0, 0}, count_{1, 1, 1}, stride_{1, 1, 1};
+  std::vector<std::uint8_t> state_;
+  mutable std::map<Cell, std::vector<Index>> buckets_;
+};
+
+}  // namespace
+
+LaidGhosts lay_wall_ghosts(const World& world, const std::vector<Index>& segments,
+                           const std::vector<char>& moves, const GhostLattice& lattice) {
+  return Layer(world, segments, moves, lattice).lay();
+}
+
+}  // namespace courant

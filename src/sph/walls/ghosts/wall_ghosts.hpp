@@ -1,0 +1,153 @@
+#pragma once
+// METHOD 2 of *COURANT_WALL_SUPPORT: fixed ghost particles behind shells.
+#include <memory>
+#include <vector>
+
+#include "search/neighbours.hpp"
+#include "sph/core/pair_volumes.hpp"
+#include "sph/sph.hpp"
+#include "sph/walls/ghosts/ghost_lattice.hpp"
+#include "sph/walls/ghosts/ghost_loops.hpp"
+#include "state/reports.hpp"
+#include "state/restartable.hpp"
+
+namespace courant {
+
+/// How a rigid part stands: a place in it and its axes, made of three of its nodes.
+class PartFrame {
+ public:
+  /// `nodes`: those of its shells.
+  PartFrame(const World& world, std::vector<Index> nodes);
+  struct Place {
+    Vec x = Vec::Zero();
+    Matrix axes = Matrix::Identity();
+    Vec from(const Vec& local) const { return x + axes * local; }
+    Vec to(const Vec& global) const { return axes.transpose() * (global - x); }
+  };
+  Place place(const World& world) const;
+  WallMotion motion(const World& world) const;
+
+ private:
+  int dim_;
+  std::array<Index, 3> node_{};  ///< far apart, and not on one line; in 2D two of them
+};
+
+/// Ghosts stand on the lattice of the water behind the shells, and go where these go. Their volume is that of
+/// a particle at rest; they have no mass, so that artificial viscosity leaves them alone. Before each force
+/// they take on the pressure that the water has there (Adami, Hu and Adams 2012), with what carries it along
+/// with walls whose motion is prescribed. (That of others follows from the pressure, and would swing.) Pair
+/// loops do the rest. Water that is squeezed against the wall squeezes the ghosts: that goes to the density
+/// of those particles whose pressure they have, so that walls at rest do no work. Parts that move get what
+/// pairs do to their ghosts.
+class WallGhosts : public Ghosts,
+                   public Rate,
+                   public Refresh,
+                   public Restartable,
+                   public EnergyTerm,
+                   public WallForceReporter,
+                   public PointForceReporter {
+ public:
+  /// `laid`: where the scene starts. `driven`, by part: motions are prescribed.
+  WallGhosts(const SphSettings& s, World& world, const std::vector<WallGhost>& laid,
+             const std::vector<char>& driven);
+  /// Before the first refresh.
+  void set_lists(const Neighbours& neighbours) { neighbours_ = &neighbours; }
+  void set_volumes(std::shared_ptr<PairVolumes> volumes) { volumes_ = std::move(volumes); }
+
+  std::string name() const override { return "wall ghosts"; }
+  void build(World& world, Real support, Real skin) override;
+  Index count() const override { return static_cast<Index>(here_.size()); }
+  void sort(World& world, std::span<const Index> order) override;
+  Real largest_move(const World& world) const override;
+  void exchange(World& world, std::span<const FieldBase* const> fields) override;
+  void exchange_all(World& world) override;
+
+  void declare(const World& world, Accesses& a) const override;
+  void start(World& world, const Clock& clock) override;
+  void block(World& world, const Clock& clock, Index begin, Index end) override;
+
+  void refreshed(World& world, const Clock&, std::span<const Index>) override;
+  void keep(Archive& archive) override;
+  void relist(World& world) override;
+
+  /// The work of ghosts is that of the mean pressure of particles, but for what rests between these and the
+  /// ghosts, and where the wall does not pull.
+  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+  bool any_moves() const { return frames_.size() > 1; }
+  /// Pressure of particles as pair forces take it.
+  const Field<Real>& pressure() const { return pressure_; }
+  /// Adds what pairs do to ghosts to the nodes and faces of parts that move, or of those that are held.
+  void add_forces(World& world, bool moving) const;
+  void take_back_forces(World& world);
+
+  InterfaceForce report(const World& world) const override;
+  void show_forces(World& world) override;
+  void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
+
+ private:
+  struct Ghost {
+    Vec x;  ///< in the axes of its frame [L]
+    Index segment;
+    Index frame;  ///< 0: it is held
+  };
+  struct Box {
+    Vec low, high;
+  };
+  void find_places(const World& world, std::vector<PartFrame::Place>& places) const;
+  void set_places(World& world) const;
+  void set_velocities(World& world) const;
+  bool is_alone(const World& world, Index i) const;
+  void relax_lone(World& world);
+  void follow_driven(const World& world, const Clock& clock);
+  void set_pressures(World& world);
+  GhostArrays arrays(World& world);
+  template <class Loop>
+  void run(Loop loop, const GhostArrays& a) const;
+  const Ghost& ghost(Index k) const {
+    return all_[static_cast<std::size_t>(here_[static_cast<std::size_t>(k)])];
+  }
+  Vec force(Index k) const { return {force_[0][k], force_[1][k], force_[2][k]}; }
+
+  int dim_;
+  KernelChoice kernel_;
+  Real h_ = 0, volume_ = 0;
+  Index part_ = 0;  ///< of the water, for loads
+  BodyAcceleration loads_;
+  BodyAcceleration::At loads_now_;
+  std::vector<Real> ro_;  ///< by part [M/L3]
+  Field<Real>& reference_volume_;
+  Field<Real>& pressure_;
+  Field<Real>* potential_ = nullptr;  ///< where density diffuses
+  Field<Real>* stress_ = nullptr;
+  GhostLoop rate_loop_, squeeze_loop_, pressure_loop_;
+  const Neighbours* neighbours_ = nullptr;  ///< which hold the ghosts
+  std::shared_ptr<PairVolumes> volumes_;
+  std::vector<Ghost> all_;
+  std::vector<PartFrame> frames_;            ///< the first one is of what is held, and stays where it is
+  std::vector<char> driven_;                 ///< by frame
+  std::vector<Vec> velocity_, omega_;        ///< of driven frames in the step before [L/T], [1/T]
+  std::vector<Vec> acceleration_, angular_;  ///< of driven frames; 0 in the first step [L/T2], [1/T2]
+  std::vector<Box> boxes_;                   ///< around the ghosts of each frame, in its axes
+  std::vector<PartFrame::Place> built_;      ///< where frames were when neighbours were searched last
+  bool loaded_ = false;                      ///< `built_` comes from a saved state
+  std::vector<Index> here_;                  ///< ghosts within reach of the water, in the order of entities
+  struct List {
+    std::vector<Index> entries;
+    std::array<Index, Neighbours::groups_per_block + 1> start{};
+  };
+  std::vector<List> lists_, seen_;  ///< of each block of ghosts, the particles near; of particles, the ghosts
+  Array<Real> rise_[3], force_[3], value_, excess_, excess_before_, saved_excess_, squeeze_, volume_rate_;
+  Real half_step_ = 0;        ///< half of the last step that was chosen [T]
+  std::vector<Index> shown_;  ///< segments that have forces of this step
+};
+
+/// *COURANT_WALL_SUPPORT with METHOD 2: lays the ghosts; null where the scene has none. Call while particles
+/// stand in the order of the model.
+std::shared_ptr<WallGhosts> build_wall_ghosts(const Deck& deck, const Model& model, const SphSettings& s,
+                                              World& world, Diagnostics& diagnostics);
+/// Behind the pair passes.
+void add_wall_ghost_forces(World& world, std::shared_ptr<WallGhosts> ghosts);
+
+}  // namespace courant
