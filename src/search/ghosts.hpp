@@ -36,7 +36,7 @@ ParticleLoops::Range depth_range(const ParticleLoops& loops, const GhostPlane& p
 /// What loads give at a place, a time, to a part [L/T2]
 using Acceleration = std::function<Vec(const Vec& x, Real t, Index part)>;
 
-/// Neighbours that are no particles: they have no lists, and pair loops take them like any other. They stand
+/// Neighbours that are no particles: they have no lists, and pair loops take them like any other. They are
 /// behind all particles in the fields that are exchanged, from index particles.size() on.
 class Ghosts : public Exchanger {
  public:
@@ -47,8 +47,8 @@ class Ghosts : public Exchanger {
     static const std::map<Index, Vec> none;
     return none;
   }
-  /// Finds the ghosts that particles within `support` + `skin` may see, makes room for them and sets their
-  /// places; nothing of earlier ghosts is kept. [L]
+  /// Finds the ghosts that particles within `support` + `skin` may see, allocates them and sets their
+  /// positions; nothing of earlier ghosts is kept. [L]
   virtual void build(World& world, Real support, Real skin) = 0;
   virtual Index count() const = 0;
   /// Puts ghost k at order[k]'s place.

@@ -75,7 +75,7 @@ struct SupportedWalls {
   std::vector<WallFriction> friction;  ///< by segment
   std::vector<GhostPlane> planes;      ///< behind which their images support, too
   bool images = false;                 ///< METHOD 1: as mirrors of the particles
-  std::vector<Index> with_ghosts;      ///< METHOD 2: shells behind which fixed ghost particles stand
+  std::vector<Index> with_ghosts;      ///< METHOD 2: shells with fixed ghost particles behind them
   bool hold = false;                   ///< any by LAW 2: no slip
   WallBelts belts;                     ///< *COURANT_WALL_BELT
 };

@@ -158,6 +158,13 @@ def test_walls_are_mirrors_if_nothing_else_is_said(tmp_path: Path, method: str, 
     assert ("*COURANT_WALL_SUPPORT" in out.deck) == mirrors
 
 
+def test_walls_with_ghosts_are_method_2_and_leave_the_water_to_them(tmp_path: Path) -> None:
+    out = written(tmp_path, "title: box\nwater: {spacing: 0.1, blocks: [{low: [0, 0], high: [0.4, 0.2]}]}\nbox: {low: [0, 0], high: [1, 0.5]}\n"
+                            "walls:\n  - {box: {low: [0.6, 0.1], high: [0.9, 0.4]}}\nwall_method: ghosts\nend: 3\n")
+    assert out.has_fields("5", "2", "0.0", "2")  # *COURANT_WALL_SUPPORT on the set of box and wall
+    assert out.has_fields(*["0.04"] * 4)  # shells of 0.4 spacings: contact acts at 0.2
+
+
 def test_water_of_three_dimensions_falls_along_z(tmp_path: Path) -> None:
     out = written(tmp_path, "title: box\nwater: {spacing: 0.1, blocks: [{low: [0, 0, 0], high: [0.2, 0.2, 0.2]}], velocity: [3, 0, 4]}\n"
                             "box: {low: [0, 0, 0], high: [0.4, 0.4, 0.4]}\ngravity: 0\nend: 3\n")

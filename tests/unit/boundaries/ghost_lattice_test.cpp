@@ -1,4 +1,4 @@
-// Where fixed ghost particles stand behind shells.
+// Where fixed ghost particles are behind shells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,12 +30,13 @@ class Tank {
       segments_.push_back(s);
     }
     moves_.assign(lines.size(), 0);
-    std::vector<Vec> places;
+    std::vector<Vec> positions;
     for (const auto& [low, high] : blocks)
       for (Real y = low[1] + dx / 2; y < high[1]; y += dx)
-        for (Real x = low[0] + dx / 2; x < high[0]; x += dx) places.emplace_back(x, y, 0);
-    world_.particles.fields.resize(static_cast<Index>(places.size()));
-    for (std::size_t i = 0; i < places.size(); ++i) world_.particles.x.set(static_cast<Index>(i), places[i]);
+        for (Real x = low[0] + dx / 2; x < high[0]; x += dx) positions.emplace_back(x, y, 0);
+    world_.particles.fields.resize(static_cast<Index>(positions.size()));
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      world_.particles.x.set(static_cast<Index>(i), positions[i]);
   }
   /// These lines are one part that moves.
   Tank& move(const std::vector<Index>& lines) {
@@ -132,7 +133,7 @@ TEST(GhostLattice, TakesAGateForNoObstacleOfTheBed) {
   EXPECT_EQ(within(laid, at(0, -0.4), at(2, 0)), 20 * 4);
   EXPECT_TRUE(laid.dry.empty());
   EXPECT_TRUE(laid.wet_on_both_sides.empty());
-  // those of the gate stand behind it
+  // those of the gate are behind it
   EXPECT_EQ(within(laid, at(1, 0), at(1.4, 1)), 10 * 4);
   EXPECT_EQ(within(laid, at(0, 0), at(1, 1)), 0);
 }
@@ -156,7 +157,7 @@ TEST(GhostLattice, IsTightWhereShellsMeetWithASmallGap) {
   EXPECT_EQ(within(laid, at(0, 0), at(1, 1.2)), 0);
 }
 
-// A brink: water falls past the end of the bed, where no ghost may stand.
+// Water falls past the end of the bed, where no ghost may be.
 TEST(GhostLattice, EndsWhereAFreeEdgeDoes) {
   const std::vector<Line> lines{{at(0, 0), at(1, 0)}, {at(0, 0), at(0, 1)}};
   const LaidGhosts laid = Tank(lines, {{at(0, 0), at(0.5, 0.6)}}).lay();

@@ -23,8 +23,8 @@ std::string deck(const std::string& scene, Parameters parameters) {
 std::unique_ptr<Simulation> started(const std::string& text) {
   auto s = test::simulation_of(text);
   if (!s) return s;
-  std::string who;
-  s->evaluate(who);
+  std::string controlled_by;
+  s->evaluate(controlled_by);
   sample_energy(s->world(), s->clock());
   s->world().energy.initial = s->world().energy.total();
   return s;
@@ -87,16 +87,16 @@ TEST(WallGhosts, PushWaterAsAForceDoes) {
   Parameters by_force = at, by_walls = at;
   by_force["gx"] = "-3", by_walls["a"] = "3";
   const auto force = started(deck("carried_box", by_force)), goes = started(deck("carried_box", by_walls));
-  const auto places = [](const Simulation& s, const Vec& shift) {
+  const auto positions = [](const Simulation& s, const Vec& shift) {
     std::map<Id, Vec> out;
     const Particles& p = s.world().particles;
     for (Index i = 0; i < p.size(); ++i) out[p.id[i]] = p.x.vec(i) - shift;
     return out;
   };
-  const auto start = places(*force, Vec::Zero());
+  const auto start = positions(*force, Vec::Zero());
   run(*force, 0.2), run(*goes, 0.2);
   const Real t = goes->clock().t;
-  const auto one = places(*force, Vec::Zero()), other = places(*goes, Vec(1.5 * t * t, 0, 0));
+  const auto one = positions(*force, Vec::Zero()), other = positions(*goes, Vec(1.5 * t * t, 0, 0));
   Real moved = 0, apart = 0;
   for (const auto& [id, x] : one) {
     moved = std::max(moved, (x - start.at(id)).norm());

@@ -130,7 +130,7 @@ class Basin:
     box_motion: dict[str, str | np.ndarray] = field(default_factory=dict)  # displacements of the box by axis, formulas of TIME [L]
     fills: list[tuple[Any, Any]] = field(default_factory=list)  # shapes that are filled with water, and their entries
     solids: list[Solid] = field(default_factory=list)
-    method: str = "contact"  # how walls act on the water: by contact, as mirrors, or mixed: box and bodies as mirrors, other walls by contact
+    method: str = "contact"  # how walls act on the water: by contact, as mirrors, by ghost particles, or mixed: box and bodies as mirrors, other walls by contact
 
     @property
     def sides(self) -> tuple[str, ...]:
@@ -171,7 +171,7 @@ class Basin:
         """Of the cards."""
         return {"end": self.end, "dim": self.dim, "c0": self.sound_speed, "rho0": self.density, "pc": -1e20 if self.tension else 0.0,
                 "q": max(self.friction, 1e-20),  # 0 would be the default
-                "output": self.output, "g": self.gravity, "touch": 0.9999 * self.spacing,
+                "output": self.output, "g": self.gravity, "touch": (0.4 if self.method == "ghosts" else 0.9999) * self.spacing,
                 "sfsb": 1000.0 if self.dim == 2 and not self.whole_depth else 1.0}  # in 2D walls of a box are narrow strips
 
     @property

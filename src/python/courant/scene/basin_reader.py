@@ -19,7 +19,7 @@ from .wave_reader import Piston, check_reach, read_waves
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "wall_method", "gravity", "end", "output")
 MOST_MIRRORS = 12  # lines of a shape in the plane
-METHODS = ("contact", "mirrors", "mixed")
+METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
 
 class BasinReader(ShapeReader):

@@ -39,7 +39,7 @@ class Solid:
 
     def mirrors(self, method: str) -> bool:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
-        return method == "mirrors" or (method == "mixed" and self.free)
+        return method in ("mirrors", "ghosts") or (method == "mixed" and self.free)
 
 
 _RIGID = """\
@@ -105,11 +105,11 @@ $#      dt
 ${output / 10:10}
 """
 
-_MIRRORS = """\
-$ Mirrors of the water beside them (METHOD 1): pressure is right in the rows beside these walls, too
+_SUPPORT = """\
+$ {what}: pressure is right in the rows beside these walls, too
 *COURANT_WALL_SUPPORT
 $#   surfb  surfbtyp        cf    method
-         5         2       0.0         1
+         5         2       0.0         {method}
 """
 
 _BODIES = """\
@@ -237,7 +237,8 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
     mirrors = [walls.id] if walls and basin.mirrors else []
     mirrors += [solid.part for solid in basin.solids if solid.mirrors(basin.method)]
     if mirrors:
-        out += [part_set(MIRRORS, mirrors), _MIRRORS]
+        what = "Fixed ghost particles behind walls (METHOD 2)" if basin.method == "ghosts" else "Mirrors of the water beside them (METHOD 1)"
+        out += [part_set(MIRRORS, mirrors), _SUPPORT.format(what=what, method=2 if basin.method == "ghosts" else 1)]
     if bodies and held and basin.dim == 3:  # elements of the plane do not touch each other
         out += [part_set(HELD, held), part_set(BODIES, bodies), _BODIES]
     if bodies or motions or makers:

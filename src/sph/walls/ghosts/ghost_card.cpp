@@ -1,4 +1,4 @@
-// *COURANT_WALL_SUPPORT with METHOD 2: where its ghosts stand, and what cannot have any.
+// *COURANT_WALL_SUPPORT with METHOD 2: where its ghosts are, and what cannot have any.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ std::shared_ptr<WallGhosts> build_wall_ghosts(const Deck& deck, const Model& mod
     deck.error(
         diagnostics, card, "METHOD",
         "water can reach both sides of " + shells_text(model, world, laid.wet_on_both_sides) +
-            ": METHOD 2 has no room for ghost particles there",
+            ": METHOD 2 cannot put ghost particles there",
         fmt::format("use METHOD 1, or make the wall a closed box at least {:.3g} thick", lattice.reach));
   if (!laid.thin.empty())
     diagnostics.warning(deck.where(card),
@@ -90,11 +90,11 @@ std::shared_ptr<WallGhosts> build_wall_ghosts(const Deck& deck, const Model& mod
     diagnostics.note(
         deck.where(card),
         fmt::format("*COURANT_WALL_SUPPORT: no water can reach {} at the start: no ghost particles "
-                    "stand there",
+                    "are there",
                     shells_text(model, world, laid.dry)));
   if (!diagnostics.ok()) return nullptr;
   std::vector<char> driven(model.parts.size(), 0);
-  Diagnostics said;  // whoever moves the bodies says it
+  Diagnostics said;  // the builder of bodies reports it
   for (const PrescribedMotion& motion : prescribed_motions(deck, model, said))
     if (motion.part >= 0) driven[static_cast<std::size_t>(motion.part)] = 1;
   return std::make_shared<WallGhosts>(s, world, laid.ghosts, driven);

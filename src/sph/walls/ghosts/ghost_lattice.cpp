@@ -58,7 +58,7 @@ class Layer {
       flood(moving);
       for (Facet* f : mine) look_at_sides(*f);
       report(mine, out);
-      place(mine, taken, out);
+      fill(mine, taken, out);
     }
     return out;
   }
@@ -157,7 +157,7 @@ class Layer {
     for (int k = 2; k >= 0; --k) c[static_cast<std::size_t>(k)] = rest / stride_[k], rest %= stride_[k];
     return c;
   }
-  Vec place_of(const Cell& c) const {
+  Vec point_of(const Cell& c) const {
     Vec x = Vec::Zero();
     for (Index k = 0; k < to_.dim; ++k)
       x[k] = to_.origin[k] + dx_ * static_cast<Real>(first_[k] + c[static_cast<std::size_t>(k)]);
@@ -192,7 +192,7 @@ class Layer {
   // ---- where water gets ----
 
   static constexpr std::uint8_t wet = 1, on_shell = 2, occupied = 32,
-                                blocked = 4;  ///< blocked << k: on the way to the next one
+                                blocked = 4;  ///< blocked << k: on the step to the next one
 
   /// Whether the line along axis k through x meets a facet, and where.
   bool meets(const Facet& f, Index k, const Vec& x, Real& at) const {
@@ -227,7 +227,7 @@ class Layer {
       lines.second[axis] = lines.first[axis];
       for_each_cell(lines, [&](const Cell& start) {
         Real at = 0;
-        if (!meets(f, k, place_of(start), at)) return;
+        if (!meets(f, k, point_of(start), at)) return;
         const Real steps = (at - to_.origin[k]) / dx_ - static_cast<Real>(first_[k]);
         const auto before = static_cast<std::int64_t>(std::floor(steps));
         const Real past = steps - static_cast<Real>(before);
@@ -274,22 +274,22 @@ class Layer {
       for (Index k = 0; k < to_.dim; ++k)
         c[static_cast<std::size_t>(k)] = std::llround((p.x.vec(i)[k] - to_.origin[k]) / dx_) - first_[k];
       if (holds(c)) state_[index(c)] |= occupied;
-      if (holds(c) && can_see(flat(p.x.vec(i)), place_of(c))) reach(index(c));
+      if (holds(c) && can_see(flat(p.x.vec(i)), point_of(c))) reach(index(c));
     }
     const Real most = level_ + 0.5 * dx_;
     while (!open.empty()) {
       const std::size_t i = open.back();
       open.pop_back();
       const Cell c = cell(i);
-      const Real height = place_of(c).dot(to_.up);
+      const Real height = point_of(c).dot(to_.up);
       for (Index k = 0; k < to_.dim; ++k)
-        for (const int way : {-1, 1}) {
+        for (const int step : {-1, 1}) {
           Cell next = c;
-          next[static_cast<std::size_t>(k)] += way;
+          next[static_cast<std::size_t>(k)] += step;
           if (!holds(next)) continue;
           const std::size_t j = index(next);
-          if ((state_[way > 0 ? i : j] & (blocked << k)) != 0) continue;
-          const Vec x = place_of(next);
+          if ((state_[step > 0 ? i : j] & (blocked << k)) != 0) continue;
+          const Vec x = point_of(next);
           const Real to = x.dot(to_.up);
           if (!is_in_scene(x) || (to > most && to < height - level_tolerance * dx_)) continue;
           reach(j);
@@ -297,7 +297,7 @@ class Layer {
     }
   }
 
-  /// Whether no facet stands between a particle and the lattice point next to it. Particles of the lattice
+  /// Whether no facet is between a particle and the lattice point next to it. Particles of the lattice
   /// are the point.
   bool can_see(const Vec& from, const Vec& to) const {
     if ((to - from).norm() < right_behind * dx_) return true;
@@ -326,7 +326,7 @@ class Layer {
       for (int b = 0; a + b < n; ++b) take(Vec(f.x[0] + (a + 1.0 / 3) / n * e1 + (b + 1.0 / 3) / n * e2));
   }
 
-  /// Which sides of a shell water can reach: it does where a wet point of the lattice stands within two
+  /// Which sides of a shell water can reach: it does where a wet point of the lattice is within two
   /// spacings of it, straight in front. What is farther off may be around a corner.
   void look_at_sides(Facet& f) {
     f.wet[0] = f.wet[1] = false;
@@ -336,18 +336,18 @@ class Layer {
       const Vec margin = Vec::Constant(far);
       for_each_cell(cells_between(x - margin, x + margin), [&](const Cell& c) {
         if ((state_[index(c)] & wet) == 0) return;
-        const Vec d = place_of(c) - x;
+        const Vec d = point_of(c) - x;
         const Real height = f.n.dot(d);
         const bool front = height > 0;
         if (f.wet[front ? 0 : 1] || !(std::abs(height) > on_wall * dx_) || d.norm() > far) return;
-        if (past_edges(f, place_of(c) - height * f.n) > 0) return;
+        if (past_edges(f, point_of(c) - height * f.n) > 0) return;
         // along the normal, so that no other shell can be met but one that is nearer
-        if (!between(f, place_of(c) - height * f.n, place_of(c))) f.wet[front ? 0 : 1] = true;
+        if (!between(f, point_of(c) - height * f.n, point_of(c))) f.wet[front ? 0 : 1] = true;
       });
     });
   }
 
-  /// Whether another facet stands between a foot on facet f and a point over it.
+  /// Whether another facet is between a foot on facet f and a point over it.
   bool between(const Facet& f, const Vec& foot, const Vec& x) const {
     const Vec from = foot + on_wall * (x - foot);
     bool is = false;
@@ -428,7 +428,7 @@ class Layer {
   /// A dry point is a ghost where it is right behind a facet, at any distance within the reach; or where the
   /// nearest point of the walls is on an edge or in a corner, if it is behind all facets that meet there and
   /// these are not in one plane: beyond the free edge of a plate is no wall.
-  void place(const std::vector<Facet*>& mine, std::vector<std::int8_t>& taken, LaidGhosts& out) {
+  void fill(const std::vector<Facet*>& mine, std::vector<std::int8_t>& taken, LaidGhosts& out) {
     std::map<std::size_t, Candidate> right, corner;
     const Vec margin = Vec::Constant(to_.reach);
     for (const Facet* f : mine) {
@@ -438,7 +438,7 @@ class Layer {
       for_each_cell(cells_between(low, high), [&](const Cell& c) {
         const std::size_t i = index(c);
         if (taken[i] != 0) return;
-        const Vec x = place_of(c);
+        const Vec x = point_of(c);
         const Real height = f->n.dot(x - f->x[0]) * f->outwards();
         if (std::abs(height) > to_.reach) return;
         const Vec foot = nearest(*f, x), d = x - foot;
@@ -472,7 +472,7 @@ class Layer {
       const Candidate& c = is_right ? found->second : nearest;
       if (!is_right && (nearest.refused || nearest.faces < 2)) continue;
       taken[i] = 1;
-      out.ghosts.push_back({place_of(cell(i)), c.segment});
+      out.ghosts.push_back({point_of(cell(i)), c.segment});
     }
     for (const Facet* f : mine)
       if (f->used() && water_behind(*f)) out.thin.push_back(f->segment);
@@ -488,7 +488,7 @@ class Layer {
         for (Index k = 0; k < to_.dim; ++k)
           c[static_cast<std::size_t>(k)] = std::llround((q[k] - to_.origin[k]) / dx_) - first_[k];
         if (!holds(c) || (state_[index(c)] & wet) == 0) continue;
-        const Vec at = place_of(c);  // it may be in front of another wall of a corner
+        const Vec at = point_of(c);  // it may be in front of another wall of a corner
         if (f.n.dot(at - f.x[0]) * f.outwards() > 0 && past_edges(f, at - f.n.dot(at - f.x[0]) * f.n) < -dx_)
           is = true;
       }

@@ -1,5 +1,5 @@
 #pragma once
-// Where fixed ghost particles stand behind the shells that hold water.
+// Where fixed ghost particles are behind the shells that hold water.
 #include <vector>
 
 #include "state/world.hpp"
@@ -9,7 +9,7 @@ namespace courant {
 /// A ghost where the scene starts.
 struct WallGhost {
   Vec x = Vec::Zero();
-  Index segment = 0;  ///< the shell behind which it stands
+  Index segment = 0;  ///< the shell behind which it is
 };
 
 /// How ghosts are laid.
@@ -23,7 +23,7 @@ struct GhostLattice {
 
 struct LaidGhosts {
   std::vector<WallGhost> ghosts;
-  std::vector<Index> wet_on_both_sides;  ///< shells that have no dry side where ghosts could stand
+  std::vector<Index> wet_on_both_sides;  ///< shells that have no dry side where ghosts could are
   std::vector<Index> dry;                ///< shells that no water can reach
   std::vector<Index> thin;               ///< shells behind which water begins again within half of the reach
   bool too_large = false;                ///< the lattice would have more points than memory allows
@@ -36,7 +36,7 @@ struct LaidGhosts {
 /// it can get to without crossing a shell. Above the highest particle it never goes down, so that it does not
 /// climb over the rim of a tank. What it does not reach is dry. A ghost is a dry point within `reach` of a
 /// shell whose other side is wet: right behind it, or behind all shells that meet at the nearest point; or a
-/// point less than half a spacing before a shell where no particle stands, as water keeps half a spacing off.
+/// point less than half a spacing before a shell where no particle is, as water keeps half a spacing off.
 /// For shells that are held, parts that move and are not closed (gates, pistons) are no obstacle to the
 /// water: it will be where they are.
 LaidGhosts lay_wall_ghosts(const World& world, const std::vector<Index>& segments,

@@ -87,7 +87,7 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
   const Pack reach = reach2(kernel, a.h);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes, at = i - a.first;
-    const Places<Dim> xi(a.x, i, count), pull(a.g, at, count);
+    const Places<Dim> xi(a.x, i, count), carried(a.g, at, count);
     Pack weight = Pack::zero(), mean = weight, rise = weight;
     Sum<Dim> slope, push;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
@@ -97,8 +97,8 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
       if (!any_less(r2, reach)) continue;
       const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv;
       const Pack w = a.V[j] * kernel.shape(R);
-      Pack height = pull.x * d.x + pull.y * d.y;
-      if constexpr (Dim == 3) height += pull.z * d.z;
+      Pack height = carried.x * d.x + carried.y * d.y;
+      if constexpr (Dim == 3) height += carried.z * d.z;
       weight += w;
       mean += a.p[j] * w;
       rise += a.rho[j] * w * height;

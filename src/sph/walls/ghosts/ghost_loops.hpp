@@ -22,7 +22,7 @@ struct GhostArrays {
   Index first;
   const Real* g[3];   ///< acceleration that rests on the wall there: of body loads less that of the wall
   Real* squeeze;      ///< what it hands on of its own rate, without the kernel's constant [L^dim/T]
-  Real* volume_rate;  ///< how fast the water that it stands for is compressed, > 0 [L^dim/T]
+  Real* volume_rate;  ///< how fast the water that it is for is compressed, > 0 [L^dim/T]
   Real* pressure;     ///< not below 0
   Real* excess;       ///< of the pressure, over the mean of that of the particles
   Real* force[3];     ///< of the water on the ghost

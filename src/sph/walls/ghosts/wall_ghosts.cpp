@@ -35,10 +35,10 @@ PartFrame::PartFrame(const World& world, std::vector<Index> nodes) : dim_(world.
   node_[2] = farthest([&](const Vec& x) { return (x - a).cross(along).norm(); });
 }
 
-PartFrame::Place PartFrame::place(const World& world) const {
+PartFrame::Pose PartFrame::pose(const World& world) const {
   std::array<Vec, 3> x;
   for (std::size_t e = 0; e < 3; ++e) x[e] = in_plane(world.nodes.x.vec(node_[e]), dim_);
-  Place out{x[0], Matrix::Identity()};
+  Pose out{x[0], Matrix::Identity()};
   const Vec first = (x[1] - x[0]).normalized();
   const Vec third = dim_ == 2 ? Vec(0, 0, 1) : Vec((x[1] - x[0]).cross(x[2] - x[0]).normalized());
   out.axes.col(0) = first, out.axes.col(1) = third.cross(first), out.axes.col(2) = third;
@@ -83,7 +83,7 @@ WallGhosts::WallGhosts(const SphSettings& s, World& world, const std::vector<Wal
   for (Index segment = 0; segment < world.segments.size(); ++segment)
     if (moves(segment))
       for (const Index n : world.segments.nodes(segment)) nodes[world.segments.part[segment]].push_back(n);
-  std::vector<PartFrame::Place> start(1);
+  std::vector<PartFrame::Pose> start(1);
   boxes_.push_back({Vec::Zero(), Vec::Zero()});
   for (const WallGhost& ghost : laid) {
     Index frame = 0;
@@ -94,11 +94,11 @@ WallGhosts::WallGhosts(const SphSettings& s, World& world, const std::vector<Wal
       if (is_new) {
         frames_.emplace_back(world, nodes.at(part));
         driven_.push_back(driven[static_cast<std::size_t>(part)]);
-        start.push_back(frames_.back().place(world));
+        start.push_back(frames_.back().pose(world));
         boxes_.push_back({Vec::Constant(1e300), Vec::Constant(-1e300)});
       }
     }
-    const PartFrame::Place& at = start[static_cast<std::size_t>(frame)];
+    const PartFrame::Pose& at = start[static_cast<std::size_t>(frame)];
     all_.push_back({at.to(ghost.x), ghost.segment, frame});
     Box& box = boxes_[static_cast<std::size_t>(frame)];
     box.low = box.low.cwiseMin(all_.back().x), box.high = box.high.cwiseMax(all_.back().x);
@@ -145,14 +145,14 @@ void WallGhosts::follow_driven(const World& world, const Clock& clock) {
   }
 }
 
-void WallGhosts::find_places(const World& world, std::vector<PartFrame::Place>& places) const {
-  places.assign(1, {});
-  for (std::size_t f = 1; f < frames_.size(); ++f) places.push_back(frames_[f].place(world));
+void WallGhosts::find_poses(const World& world, std::vector<PartFrame::Pose>& poses) const {
+  poses.assign(1, {});
+  for (std::size_t f = 1; f < frames_.size(); ++f) poses.push_back(frames_[f].pose(world));
 }
 
 void WallGhosts::build(World& world, Real support, Real skin) {
   Particles& p = world.particles;
-  if (!loaded_) find_places(world, built_);
+  if (!loaded_) find_poses(world, built_);
   loaded_ = false;
   Vec low = Vec::Constant(1e300), high = -low;
   for (int k = 0; k < dim_; ++k) {
@@ -168,11 +168,11 @@ void WallGhosts::build(World& world, Real support, Real skin) {
     }
   });
   p.fields.make_room_for_ghosts(count());
-  set_places(world);
+  set_positions(world);
 }
 
 /// As of the last search.
-void WallGhosts::set_places(World& world) const {
+void WallGhosts::set_positions(World& world) const {
   Particles& p = world.particles;
   const Index first = p.size();
   for_each(count(), [&](Index k) {
@@ -195,7 +195,7 @@ void WallGhosts::sort(World& world, std::span<const Index> order) {
   }
   std::fill(p.h.data() + first, p.h.data() + first + count(), h_);
   volumes_->set_ghosts(world, count(), volume_);
-  set_places(world);
+  set_positions(world);
 }
 
 /// Whether no particle and no ghost is within reach of particle i.
@@ -269,22 +269,22 @@ void WallGhosts::relist(World& world) {
 }
 
 void WallGhosts::keep(Archive& archive) {
-  std::vector<Vec> places;
-  for (const PartFrame::Place& place : built_) {
-    places.push_back(place.x);
-    for (Index k = 0; k < 3; ++k) places.push_back(place.axes.col(k));
+  std::vector<Vec> positions;
+  for (const PartFrame::Pose& position : built_) {
+    positions.push_back(position.x);
+    for (Index k = 0; k < 3; ++k) positions.push_back(position.axes.col(k));
   }
-  archive("places", places);
+  archive("positions", positions);
   archive("velocity", velocity_);
   archive("omega", omega_);
   archive("half_step", half_step_);
   archive("excess", excess_);
   if (archive.loading()) excess_.swap(saved_excess_);
   if (!archive.loading()) return;
-  built_.assign(places.size() / 4, {});
+  built_.assign(positions.size() / 4, {});
   for (std::size_t f = 0; f < built_.size(); ++f) {
-    built_[f].x = places[4 * f];
-    for (Index k = 0; k < 3; ++k) built_[f].axes.col(k) = places[4 * f + 1 + static_cast<std::size_t>(k)];
+    built_[f].x = positions[4 * f];
+    for (Index k = 0; k < 3; ++k) built_[f].axes.col(k) = positions[4 * f + 1 + static_cast<std::size_t>(k)];
   }
   loaded_ = built_.size() == frames_.size();
 }
@@ -293,7 +293,7 @@ void WallGhosts::keep(Archive& archive) {
 Real WallGhosts::largest_move(const World& world) const {
   Real most2 = 0;
   for (std::size_t f = 1; f < frames_.size() && f < built_.size(); ++f) {
-    const PartFrame::Place now = frames_[f].place(world);
+    const PartFrame::Pose now = frames_[f].pose(world);
     for (int corner = 0; corner < 8; ++corner) {
       Vec x;
       for (int k = 0; k < 3; ++k) x[k] = (corner >> k & 1) != 0 ? boxes_[f].high[k] : boxes_[f].low[k];
@@ -326,7 +326,7 @@ GhostArrays WallGhosts::arrays(World& world) {
   return a;
 }
 
-/// Of the middle of the step, where the places in it were, too.
+/// Of the middle of the step, where the positions in it were, too.
 void WallGhosts::set_velocities(World& world) const {
   std::vector<WallMotion> motion(frames_.size());
   for (std::size_t f = 1; f < frames_.size(); ++f) motion[f] = frames_[f].motion(world);
@@ -369,11 +369,11 @@ void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields
   };
   const Index first = p.size();
   if (asks(&p.x) && any_moves()) {
-    std::vector<PartFrame::Place> places;
-    find_places(world, places);
+    std::vector<PartFrame::Pose> poses;
+    find_poses(world, poses);
     for_each(count(), [&](Index k) {
       const Ghost& one = ghost(k);
-      if (one.frame > 0) p.x.set(first + k, places[static_cast<std::size_t>(one.frame)].from(one.x));
+      if (one.frame > 0) p.x.set(first + k, poses[static_cast<std::size_t>(one.frame)].from(one.x));
     });
   }
   if (asks(potential_))
@@ -390,9 +390,9 @@ void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields
 }
 
 void WallGhosts::exchange_all(World& world) {
-  if (!saved_excess_.empty()) {  // pressures of the last forces; before the next ones nobody reads them
-    const FieldBase* const places[]{&world.particles.x, &world.particles.v, potential_};
-    exchange(world, places);
+  if (!saved_excess_.empty()) {  // pressures of the last forces; nothing reads them before the next ones
+    const FieldBase* const positions[]{&world.particles.x, &world.particles.v, potential_};
+    exchange(world, positions);
     excess_.swap(saved_excess_);
     saved_excess_.clear();
     return;

@@ -13,18 +13,18 @@
 
 namespace courant {
 
-/// How a rigid part stands: a place in it and its axes, made of three of its nodes.
+/// The position and the axes of a rigid part, made of three of its nodes.
 class PartFrame {
  public:
   /// `nodes`: those of its shells.
   PartFrame(const World& world, std::vector<Index> nodes);
-  struct Place {
+  struct Pose {
     Vec x = Vec::Zero();
     Matrix axes = Matrix::Identity();
     Vec from(const Vec& local) const { return x + axes * local; }
     Vec to(const Vec& global) const { return axes.transpose() * (global - x); }
   };
-  Place place(const World& world) const;
+  Pose pose(const World& world) const;
   WallMotion motion(const World& world) const;
 
  private:
@@ -32,7 +32,7 @@ class PartFrame {
   std::array<Index, 3> node_{};  ///< far apart, and not on one line; in 2D two of them
 };
 
-/// Ghosts stand on the lattice of the water behind the shells, and go where these go. Their volume is that of
+/// Ghosts are on the lattice of the water behind the shells, and go where these go. Their volume is that of
 /// a particle at rest; they have no mass, so that artificial viscosity leaves them alone. Before each force
 /// they take on the pressure that the water has there (Adami, Hu and Adams 2012), with what carries it along
 /// with walls whose motion is prescribed. (That of others follows from the pressure, and would swing.) Pair
@@ -71,7 +71,7 @@ class WallGhosts : public Ghosts,
   void relist(World& world) override;
 
   /// The work of ghosts is that of the mean pressure of particles, but for what rests between these and the
-  /// ghosts, and where the wall does not pull.
+  /// ghosts, and the limit at 0.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
@@ -95,8 +95,8 @@ class WallGhosts : public Ghosts,
   struct Box {
     Vec low, high;
   };
-  void find_places(const World& world, std::vector<PartFrame::Place>& places) const;
-  void set_places(World& world) const;
+  void find_poses(const World& world, std::vector<PartFrame::Pose>& poses) const;
+  void set_positions(World& world) const;
   void set_velocities(World& world) const;
   bool is_alone(const World& world, Index i) const;
   void relax_lone(World& world);
@@ -130,7 +130,7 @@ class WallGhosts : public Ghosts,
   std::vector<Vec> velocity_, omega_;        ///< of driven frames in the step before [L/T], [1/T]
   std::vector<Vec> acceleration_, angular_;  ///< of driven frames; 0 in the first step [L/T2], [1/T2]
   std::vector<Box> boxes_;                   ///< around the ghosts of each frame, in its axes
-  std::vector<PartFrame::Place> built_;      ///< where frames were when neighbours were searched last
+  std::vector<PartFrame::Pose> built_;       ///< where frames were when neighbours were searched last
   bool loaded_ = false;                      ///< `built_` comes from a saved state
   std::vector<Index> here_;                  ///< ghosts within reach of the water, in the order of entities
   struct List {
@@ -144,7 +144,7 @@ class WallGhosts : public Ghosts,
 };
 
 /// *COURANT_WALL_SUPPORT with METHOD 2: lays the ghosts; null where the scene has none. Call while particles
-/// stand in the order of the model.
+/// are in the order of the model.
 std::shared_ptr<WallGhosts> build_wall_ghosts(const Deck& deck, const Model& model, const SphSettings& s,
                                               World& world, Diagnostics& diagnostics);
 /// Behind the pair passes.
