@@ -174,7 +174,7 @@ TEST(EnergyLedger, ClosesForACloudThatRunsIntoItself) {
     cloud.settings.mu.assign(1, 0.5);
     for (Index i = 0; i < p.size(); ++i) p.v.set(i, -2 * (p.x.vec(i) - Vec(0.075, 0.075, 0)) / 0.075);
     w.passes.add(liquid_pass(9e5, w));
-    add_sph_passes(w, cloud.settings, cloud.neighbours);
+    add_sph_passes(w, cloud.settings, cloud.neighbours, nullptr);
     w.passes.add(make_clear_forces(points_of(w.particles)));
     w.passes.add(make_point_motion(points_of(w.particles)));
     w.passes.add(make_kinetic_energy(points_of(w.particles)));

@@ -43,7 +43,7 @@ Result run(Real eps, int threads = 1) {
   w.passes.add(make_clear_forces(points_of(w.particles)));
   w.passes.add(make_point_motion(points_of(w.particles)));
   w.passes.add(make_kinetic_energy(points_of(w.particles)));
-  add_sph_passes(w, cloud.settings, cloud.neighbours);
+  add_sph_passes(w, cloud.settings, cloud.neighbours, nullptr);
   w.passes.add(std::make_shared<ConstantStep>(2e-6));
   cloud.refresh();
   sample_energy(w, cloud.clock);

@@ -208,7 +208,7 @@ TEST(Renormalisation, StrainAndSpinAreExactForLinearVelocities) {
     cloud.settings.renormalised = true;
     cloud.settings.spacing_of_part = {0.01};
     cloud.settings.strength = {std::make_shared<NoStrength>()};
-    add_sph_passes(cloud.world, cloud.settings, cloud.neighbours);
+    add_sph_passes(cloud.world, cloud.settings, cloud.neighbours, nullptr);
     cloud.refresh();
     for (BlockPass* pass : cloud.world.passes.in_phase(Phase::rates, cloud.world)) cloud.run(*pass);
     const Vec spin = 0.5 * Vec(L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1));

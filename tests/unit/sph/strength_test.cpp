@@ -41,7 +41,7 @@ struct Rubber : Cloud {
   }
   void add(Real eps = 0) {
     settings.artificial_stress.eps = eps;
-    add_sph_passes(world, settings, neighbours);
+    add_sph_passes(world, settings, neighbours, nullptr);
     world.passes.add(make_clear_forces(points_of(world.particles)));
     world.passes.add(make_point_motion(points_of(world.particles)));
     world.passes.add(make_kinetic_energy(points_of(world.particles)));
