@@ -75,17 +75,26 @@ std::shared_ptr<WallGhosts> build_wall_ghosts(const Deck& deck, const Model& mod
                "than 5e8 points",
                "use METHOD 1, or name only shells near the water");
   if (!laid.wet_on_both_sides.empty())
-    deck.error(
-        diagnostics, card, "METHOD",
-        "water can reach both sides of " + shells_text(model, world, laid.wet_on_both_sides) +
-            ": METHOD 2 cannot put ghost particles there",
-        fmt::format("use METHOD 1, or make the wall a closed box at least {:.3g} thick", lattice.reach));
+    deck.error(diagnostics, card, "METHOD",
+               "water can reach both sides of " + shells_text(model, world, laid.wet_on_both_sides) +
+                   ": METHOD 2 cannot put ghost particles there",
+               fmt::format("use METHOD 1 (wall_method: mirrors in a scene), or make the wall a closed body "
+                           "at least {:.3g} thick; "
+                           "a tank whose rim is below the highest water is wet outside, too",
+                           lattice.reach));
   if (!laid.thin.empty())
     diagnostics.warning(deck.where(card),
-                        fmt::format("*COURANT_WALL_SUPPORT: {} enclose less than half of the kernel's reach, "
+                        fmt::format("*COURANT_WALL_SUPPORT: {} enclose less than the kernel's reach, "
                                     "{:.3g}: water acts through them",
-                                    shells_text(model, world, laid.thin), 0.5 * lattice.reach),
+                                    shells_text(model, world, laid.thin), lattice.reach),
                         "make the wall thicker, or use METHOD 1");
+  if (!laid.open.empty())
+    diagnostics.warning(
+        deck.where(card),
+        fmt::format("*COURANT_WALL_SUPPORT: {} moves and is not closed: METHOD 2 fills {:.3g} behind it "
+                    "with ghost particles, which water that gets there meets",
+                    shells_text(model, world, laid.open), lattice.reach),
+        "fine for a piston with dry space behind it; let a gate be a METHOD 1 wall or a closed body");
   if (!laid.dry.empty())
     diagnostics.note(
         deck.where(card),

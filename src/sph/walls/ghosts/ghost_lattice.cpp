@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include "parallel/parallel.hpp"
@@ -13,13 +14,15 @@ namespace courant {
 
 namespace {
 
-constexpr double most_points = 5e8;       ///< of the lattice: two bytes each
-constexpr Real on_wall = 0.02;            ///< of a spacing: points so near a shell are on it
-constexpr Real widened = 0.25;            ///< of a spacing: shells block so far beyond their edges
-constexpr Real most_in_front = 0.49;      ///< of a spacing: water keeps half a spacing off
-constexpr Real level_tolerance = 1e-6;    ///< of a spacing
-constexpr Real right_behind = 1e-3;       ///< of a spacing: a foot so far past an edge is on it
-constexpr Real least_angle_cosine = 0.9;  ///< between normals of faces that meet at a corner
+constexpr double most_points = 5e8;     ///< of the lattice: two bytes each
+constexpr Real on_wall = 0.02;          ///< of a spacing: points so near a shell are on it
+constexpr Real widened = 0.25;          ///< of a spacing: shells block so far beyond their edges
+constexpr Real most_in_front = 0.49;    ///< of a spacing: water keeps half a spacing off
+constexpr Real level_tolerance = 1e-6;  ///< of a spacing
+constexpr Real right_behind = 1e-3;     ///< of a spacing: a foot so far past an edge is on it
+constexpr Real cone_cosine = 0.5;       ///< water in sight of a shell is before it within 60 degrees
+constexpr Real off_cone = 0.05;         ///< of 1: directions so near a cone of normals are in it
+constexpr Real least_thickness = 0.9;   ///< of the reach: water acts through thinner walls
 
 /// A flat piece of wall: a triangle, in 2D a line.
 struct Facet {
@@ -58,6 +61,8 @@ class Layer {
       flood(moving);
       for (Facet* f : mine) look_at_sides(*f);
       report(mine, out);
+      for (const Facet* f : mine)
+        if (moving && f->used() && !closed_.at(f->part)) out.open.push_back(f->segment);
       fill(mine, taken, out);
     }
     return out;
@@ -340,9 +345,12 @@ class Layer {
         const Real height = f.n.dot(d);
         const bool front = height > 0;
         if (f.wet[front ? 0 : 1] || !(std::abs(height) > on_wall * dx_) || d.norm() > far) return;
-        if (past_edges(f, point_of(c) - height * f.n) > 0) return;
-        // along the normal, so that no other shell can be met but one that is nearer
-        if (!between(f, point_of(c) - height * f.n, point_of(c))) f.wet[front ? 0 : 1] = true;
+        // along the normal, so that no other shell can be met but one that is nearer; of shells shorter than
+        // the spacing, which may have no point of the lattice over them, within a cone about it
+        const Vec foot = point_of(c) - height * f.n;
+        const bool straight = past_edges(f, foot) <= 0;
+        if (!straight && !(std::abs(height) > cone_cosine * d.norm())) return;
+        if (!between(f, straight ? foot : x, point_of(c))) f.wet[front ? 0 : 1] = true;
       });
     });
   }
@@ -419,78 +427,84 @@ class Layer {
 
   struct Candidate {
     Real distance = 1e300;
-    bool refused = false;  ///< in front of one of the facets that meet there
-    Vec foot = Vec::Zero(), normal = Vec::Zero();
+    Vec foot = Vec::Zero();      ///< the nearest point of the walls
+    std::vector<Vec> normals{};  ///< out of the water, of the facets that meet there
     Index segment = -1;
-    int faces = 0;
+    Real distance_behind = 1e300;  ///< from the nearest facet that it is right behind
+    Index right_behind = -1;       ///< the segment of that
   };
 
+  /// Whether a direction is a sum of these unit vectors with weights >= 0, found by descent along each in
+  /// turn.
+  static bool in_cone(const Vec& direction, const std::vector<Vec>& normals) {
+    std::vector<Real> weight(normals.size(), 0);
+    Vec rest = direction;
+    for (int round = 0; round < 40; ++round)
+      for (std::size_t k = 0; k < normals.size(); ++k) {
+        const Real change = std::max(weight[k] + normals[k].dot(rest), Real(0)) - weight[k];
+        weight[k] += change, rest -= change * normals[k];
+      }
+    return rest.norm() < off_cone;
+  }
+
   /// A dry point is a ghost where it is right behind a facet, at any distance within the reach; or where the
-  /// nearest point of the walls is on an edge or in a corner, if it is behind all facets that meet there and
-  /// these are not in one plane: beyond the free edge of a plate is no wall.
+  /// nearest point of the walls is on an edge or in a corner, if its direction from there is between the
+  /// normals of the facets that meet: beyond the free edge of a plate is no wall. A wet point is one where it
+  /// is so near a wall in front of it that no water is there.
   void fill(const std::vector<Facet*>& mine, std::vector<std::int8_t>& taken, LaidGhosts& out) {
-    std::map<std::size_t, Candidate> right, corner;
+    std::unordered_map<std::size_t, Candidate> near;
     const Vec margin = Vec::Constant(to_.reach);
     for (const Facet* f : mine) {
       if (!f->used()) continue;
       const Vec low = f->x[0].cwiseMin(f->x[1]).cwiseMin(f->x[2]) - margin,
                 high = f->x[0].cwiseMax(f->x[1]).cwiseMax(f->x[2]) + margin;
+      const Vec n = f->outwards() * f->n;
       for_each_cell(cells_between(low, high), [&](const Cell& c) {
         const std::size_t i = index(c);
-        if (taken[i] != 0) return;
+        if (taken[i] != 0 || (state_[i] & (wet | occupied)) == (wet | occupied)) return;
         const Vec x = point_of(c);
-        const Real height = f->n.dot(x - f->x[0]) * f->outwards();
-        if (std::abs(height) > to_.reach) return;
-        const Vec foot = nearest(*f, x), d = x - foot;
-        const Real distance = d.norm();
+        const Real height = n.dot(x - f->x[0]);
+        if (std::abs(height) > ((state_[i] & wet) != 0 ? most_in_front * dx_ : to_.reach)) return;
+        const Vec foot = nearest(*f, x);
+        const Real distance = (x - foot).norm();
         if (distance > to_.reach) return;
-        if ((state_[i] & wet) != 0) {  // too near the wall for water
-          const bool free = (state_[i] & occupied) == 0 && -height < most_in_front * dx_ && height < 0;
-          if (free && std::abs(distance + height) < right_behind * dx_)
-            right.try_emplace(i, Candidate{distance, false, foot, f->outwards() * f->n, f->segment, 1}),
-                corner.try_emplace(i);
-          return;
-        }
-        const bool behind = height > -on_wall * dx_;
-        if (std::abs(distance - std::abs(height)) < right_behind * dx_) {
-          Candidate& known = right[i];
-          if (behind && distance < known.distance)
-            known = {distance, false, foot, f->outwards() * f->n, f->segment, 1};
-        }
-        Candidate& known = corner[i];
+        Candidate& known = near[i];
+        if (height > -on_wall * dx_ && distance < known.distance_behind &&
+            distance - std::abs(height) < right_behind * dx_)
+          known.distance_behind = distance, known.right_behind = f->segment;
         if (distance < known.distance - right_behind * dx_)
-          known = {distance, !behind, foot, f->outwards() * f->n, f->segment, 1};
-        else if (distance < known.distance + right_behind * dx_) {
-          known.refused |= !behind;
-          if (known.normal.dot(f->outwards() * f->n) < least_angle_cosine) ++known.faces;
-        }
+          known.distance = distance, known.foot = foot, known.normals = {n}, known.segment = f->segment;
+        else if (distance < known.distance + right_behind * dx_)
+          known.normals.push_back(n);
       });
     }
-    for (const auto& [i, nearest] : corner) {
-      const auto found = right.find(i);
-      const bool is_right = found != right.end() && found->second.segment >= 0;
-      const Candidate& c = is_right ? found->second : nearest;
-      if (!is_right && (nearest.refused || nearest.faces < 2)) continue;
+    std::vector<std::size_t> order;
+    for (const auto& [i, candidate] : near) order.push_back(i);
+    std::sort(order.begin(), order.end());
+    for (const std::size_t i : order) {
+      const Candidate& c = near.at(i);
+      const bool is_wet = (state_[i] & wet) != 0;
+      if (is_wet && !(c.distance < most_in_front * dx_)) continue;
+      const Vec x = point_of(cell(i)),
+                away = (is_wet ? -1 : 1) * (x - c.foot) / std::max(c.distance, on_wall * dx_);
+      const bool right = !is_wet && c.right_behind >= 0;
+      if (!right && c.distance > on_wall * dx_ && !in_cone(away, c.normals)) continue;
       taken[i] = 1;
-      out.ghosts.push_back({point_of(cell(i)), c.segment});
+      out.ghosts.push_back({x, right ? c.right_behind : c.segment});
     }
     for (const Facet* f : mine)
       if (f->used() && water_behind(*f)) out.thin.push_back(f->segment);
   }
 
-  /// Whether water begins again within half of the reach behind a facet.
+  /// Whether water begins again within the reach behind a facet: all points of the lattice around one there
+  /// are wet.
   bool water_behind(const Facet& f) const {
     bool is = false;
     for_each_sample(f, [&](const Vec& x) {
-      for (Real s = 0.5; !is && s * dx_ < 0.5 * to_.reach; s += 0.5) {
-        Cell c{};
+      for (Real s = 0.5; !is && s * dx_ < least_thickness * to_.reach; s += 0.5) {
         const Vec q = x + s * dx_ * f.outwards() * f.n;
-        for (Index k = 0; k < to_.dim; ++k)
-          c[static_cast<std::size_t>(k)] = std::llround((q[k] - to_.origin[k]) / dx_) - first_[k];
-        if (!holds(c) || (state_[index(c)] & wet) == 0) continue;
-        const Vec at = point_of(c);  // it may be in front of another wall of a corner
-        if (f.n.dot(at - f.x[0]) * f.outwards() > 0 && past_edges(f, at - f.n.dot(at - f.x[0]) * f.n) < -dx_)
-          is = true;
+        is = true;
+        for_each_cell(cells_between(q, q), [&](const Cell& c) { is = is && (state_[index(c)] & wet) != 0; });
       }
     });
     return is;

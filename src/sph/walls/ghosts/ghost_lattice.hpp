@@ -25,7 +25,8 @@ struct LaidGhosts {
   std::vector<WallGhost> ghosts;
   std::vector<Index> wet_on_both_sides;  ///< shells that have no dry side where ghosts could are
   std::vector<Index> dry;                ///< shells that no water can reach
-  std::vector<Index> thin;               ///< shells behind which water begins again within half of the reach
+  std::vector<Index> thin;               ///< shells behind which water begins again within the reach
+  std::vector<Index> open;               ///< shells that move, of parts that are not closed: gates, pistons
   bool too_large = false;                ///< the lattice would have more points than memory allows
 };
 

@@ -25,6 +25,16 @@ auto with_ghost_kernel(KernelChoice choice, const F& f) {
   return with_loop_kernel(choice, f);
 }
 
+/// A kernel without its constant, of a pair where it was in the middle of the step. Exact: what ghosts share
+/// out by it must be what they were given.
+template <class Kernel, int Dim>
+COURANT_INLINE Pack shape_before(const Kernel& kernel, const GhostArrays& a, Difference<Dim> d,
+                                 const Difference<Dim>& u, const Pack& tiny, const Pack& hinv) {
+  d.advance(-a.half_step, u);
+  const Pack r2 = dot_plus(d, d, tiny);
+  return kernel.shape(r2 * rsqrt(r2) * hinv);
+}
+
 template <class Kernel, int Dim>
 void rates_of_ghosts(const GhostArrays& arrays, const NeighbourLists& lists) {
   const GhostArrays a = arrays;
@@ -32,8 +42,6 @@ void rates_of_ghosts(const GhostArrays& arrays, const NeighbourLists& lists) {
   const Real norm = gradient_norm<Dim>(kernel, a.h);
   const Pack hinv = Pack::of(1 / a.h), tiny = Pack::of(tiny_distance2 * a.h * a.h), two_hinv = 2 * hinv;
   const Pack reach = reach2(kernel, a.h);
-  // the kernel in the middle of the step is that at its end less half a step of its change
-  const Real to_middle = a.half_step * kernel.gradient_factor / a.h;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
@@ -46,7 +54,7 @@ void rates_of_ghosts(const GhostArrays& arrays, const NeighbourLists& lists) {
       const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv, u_dot_d = dot(u, d);
       const MovingShape<Kernel> moving(kernel, R, rinv, two_hinv, u_dot_d * rinv, dot(u, u), r2, a.half_step);
       rate += a.V[j] * (moving.shape * u_dot_d - a.half_step * moving.later);
-      weight += a.V[j] * (kernel.shape(R) - to_middle * moving.shape * u_dot_d);
+      weight += a.V[j] * shape_before(kernel, a, d, u, tiny, hinv);
     }
     const Pack all = max(weight, Pack::of(least_weight * power<Dim>(a.h)));
     const Pack volume_rate = norm * Pack::load(a.V + i, count) * rate;
@@ -68,11 +76,10 @@ void squeezed(const GhostArrays& arrays, const NeighbourLists& lists) {
     Pack sum = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
-      Difference<Dim> d(xi, a.x, j);
-      d.advance(-a.half_step, Difference<Dim>(vi, a.v, j));
-      const Pack r2 = dot_plus(d, d, tiny);
-      if (!any_less(r2, reach)) continue;
-      sum += a.squeeze[j - a.first] * kernel.shape(r2 * rsqrt(r2) * hinv);
+      const Difference<Dim> d(xi, a.x, j);
+      if (!any_less(dot_plus(d, d, tiny), reach)) continue;
+      const Difference<Dim> u(vi, a.v, j);
+      sum += a.squeeze[j - a.first] * shape_before(kernel, a, d, u, tiny, hinv);
     }
     (Pack::load(a.drhodt + i, count) + Pack::load(a.rho + i, count) * sum).store(a.drhodt + i, count);
   }
@@ -113,7 +120,7 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
     }
     const Pack over = 1 / max(weight, Pack::of(least_weight * power<Dim>(a.h)));
     mean *= over;
-    const Pack p = max(mean + over * rise, Pack::zero());
+    const Pack p = mean + over * rise;
     p.store(a.pressure + at, count);
     (p - mean).store(a.excess + at, count);
     const Pack factor = (0 - norm) * Pack::load(a.V + i, count);

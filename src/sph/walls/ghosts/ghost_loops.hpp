@@ -23,9 +23,9 @@ struct GhostArrays {
   const Real* g[3];   ///< acceleration that rests on the wall there: of body loads less that of the wall
   Real* squeeze;      ///< what it hands on of its own rate, without the kernel's constant [L^dim/T]
   Real* volume_rate;  ///< how fast the water that it is for is compressed, > 0 [L^dim/T]
-  Real* pressure;     ///< not below 0
-  Real* excess;       ///< of the pressure, over the mean of that of the particles
-  Real* force[3];     ///< of the water on the ghost
+  Real* pressure;
+  Real* excess;    ///< of the pressure, over the mean of that of the particles
+  Real* force[3];  ///< of the water on the ghost
 };
 
 /// Over lists; those of ghosts are entities [begin, end) behind the particles.
@@ -38,7 +38,7 @@ GhostLoop ghost_rate_loop(KernelChoice kernel, int dim);
 /// each particle gets by the weight that its pressure has for the ghost. So pressure works as much as it
 /// stores.
 GhostLoop squeezed_by_ghosts_loop(KernelChoice kernel, int dim);
-/// Of ghosts: pressure = max(sum_j V_j W (p_j + rho_j g.(x - x_j)) / sum_j V_j W, 0), Adami, Hu and Adams
+/// Of ghosts: pressure = sum_j V_j W (p_j + rho_j g.(x - x_j)) / sum_j V_j W, Adami, Hu and Adams
 /// 2012, eq. 27; force = -V sum_j V_j (pressure + p_j) grad W, which is what `forces_loop` does to the
 /// particles, with the other sign. `stress`: with the viscous stress of the particles.
 GhostLoop ghost_pressure_loop(KernelChoice kernel, int dim, bool stress);

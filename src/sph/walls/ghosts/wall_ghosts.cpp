@@ -8,7 +8,6 @@
 #include "parallel/parallel.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/walls/wall_surface.hpp"
-#include "state/shared_fields.hpp"
 #include "surfaces/face_forces.hpp"
 
 namespace courant {
@@ -60,8 +59,6 @@ WallGhosts::WallGhosts(const SphSettings& s, World& world, const std::vector<Wal
       kernel_(s.kernel),
       loads_(s.loads),
       loads_now_(s.loads.at(0)),
-      ro_(s.ro),
-      reference_volume_(shared_fields::reference_volume.add(world.particles.fields)),
       pressure_(std::holds_alternative<BulkViscosity>(s.viscosity)
                     ? sph_fields::pressure_plus_q(world.particles)
                     : world.particles.p),
@@ -196,43 +193,6 @@ void WallGhosts::sort(World& world, std::span<const Index> order) {
   std::fill(p.h.data() + first, p.h.data() + first + count(), h_);
   volumes_->set_ghosts(world, count(), volume_);
   set_positions(world);
-}
-
-/// Whether no particle and no ghost is within reach of particle i.
-bool WallGhosts::is_alone(const World& world, Index i) const {
-  const Particles& p = world.particles;
-  const Real reach2 = power<2>(neighbours_->support() * h_ + neighbours_->skin());
-  const auto near = [&](Index j) { return j != i && (p.x.vec(j) - p.x.vec(i)).squaredNorm() < reach2; };
-  for (const Index j : neighbours_->listed(i / Neighbours::lanes))
-    if (near(j)) return false;
-  std::vector<Index> others;  // lists may lack particles of earlier groups
-  neighbours_->add_active_near(world, i, 1, others);
-  return std::none_of(others.begin(), others.end(), near);
-}
-
-/// A drop that has left the water keeps the density that its last neighbours left it, up to several percent
-/// off, and would hit the next wall with a pressure that is no water's. Alone it has none.
-void WallGhosts::relax_lone(World& world) {
-  constexpr Real least = 1e-3;  // of the density
-  Particles& p = world.particles;
-  std::vector<Index> lone;
-  collect(p.active, lone, [&](Index begin, Index end, std::vector<Index>& found) {
-    for (Index i = begin; i < end; ++i)
-      if (std::abs(p.rho[i] / ro_[static_cast<std::size_t>(p.part[i])] - 1) > least && is_alone(world, i))
-        found.push_back(i);
-  });
-  for (const Index i : lone) {
-    const Real energy = p.E[i] * reference_volume_[i];
-    world.energy.dissipated += energy, world.energy.throughput += std::abs(energy);
-    p.rho[i] = ro_[static_cast<std::size_t>(p.part[i])];
-    p.E[i] = p.p[i] = p.drhodt[i] = 0;
-    ++world.counters["lone_drops_relaxed"];
-  }
-}
-
-void WallGhosts::refreshed(World& world, const Clock&, std::span<const Index>) {
-  relist(world);
-  relax_lone(world);
 }
 
 void WallGhosts::relist(World& world) {

@@ -66,12 +66,12 @@ class WallGhosts : public Ghosts,
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
 
-  void refreshed(World& world, const Clock&, std::span<const Index>) override;
+  void refreshed(World& world, const Clock&, std::span<const Index>) override { relist(world); }
   void keep(Archive& archive) override;
   void relist(World& world) override;
 
-  /// The work of ghosts is that of the mean pressure of particles, but for what rests between these and the
-  /// ghosts, and the limit at 0.
+  /// The work of ghosts is that of the mean pressure of particles, but for the weight of what is between
+  /// these and the ghosts.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
@@ -98,8 +98,6 @@ class WallGhosts : public Ghosts,
   void find_poses(const World& world, std::vector<PartFrame::Pose>& poses) const;
   void set_positions(World& world) const;
   void set_velocities(World& world) const;
-  bool is_alone(const World& world, Index i) const;
-  void relax_lone(World& world);
   void follow_driven(const World& world, const Clock& clock);
   void set_pressures(World& world);
   GhostArrays arrays(World& world);
@@ -116,8 +114,6 @@ class WallGhosts : public Ghosts,
   Index part_ = 0;  ///< of the water, for loads
   BodyAcceleration loads_;
   BodyAcceleration::At loads_now_;
-  std::vector<Real> ro_;  ///< by part [M/L3]
-  Field<Real>& reference_volume_;
   Field<Real>& pressure_;
   Field<Real>* potential_ = nullptr;  ///< where density diffuses
   Field<Real>* stress_ = nullptr;
