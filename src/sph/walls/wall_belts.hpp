@@ -16,8 +16,8 @@ struct WallMotion {
   Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
 };
 
-/// How a rigid body moves three points of which have these positions and velocities; in 2D the first two count.
-/// They are not on one line. [L], [L/T]
+/// How a rigid body moves three points of which have these positions and velocities; in 2D the first two
+/// count. They are not on one line. [L], [L/T]
 WallMotion rigid_motion(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, int dim);
 
 /// Of each segment the belt that it belongs to; where there is none, `of_segment` is empty.

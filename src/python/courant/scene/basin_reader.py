@@ -262,8 +262,9 @@ class BasinReader(ShapeReader):
             lattice.solids, lattice.location = [Near(shape)], self.at(node)
             self.add_entities(node, float(np.prod(n)))
             basin.water.lattices.append(lattice)
-        # contact acts at half a spacing
-        out = [Near(solid.shape, 0.5 * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
+        # contact acts at half a spacing; before ghosts at 0.2, so that points of the lattice on both sides of a wall are water or ghosts
+        gap = 0.25 if basin.method == "ghosts" else 0.5
+        out = [Near(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
         for lattice in basin.water.lattices:
             lattice.without = out
 
