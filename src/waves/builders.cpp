@@ -1,5 +1,6 @@
 // What *COURANT_WAVE_MAKER brings into a world.
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,7 @@ class WaveMakerBuilder {
     const std::size_t body = body_of(c);
     if (diagnostics_.errors() > before) return;
     check_free(c, bodies_->bodies()[body], s.paddle);
+    if (s.paddle.kind == Paddle::Kind::flap) check_flap(c, s.paddle);
     if (diagnostics_.errors() > before) return;
     world_.passes.add(make_wave_maker(std::move(s), bodies_, body, settings_.kernel));
   }
@@ -122,6 +124,31 @@ class WaveMakerBuilder {
       }
     error(c, "PID", fmt::format("part {} is no rigid body", c.pid), "it needs elements and a *MAT_RIGID");
     return 0;
+  }
+
+  /// What turns about the hinge is above it: below, it would move the other way, which no theory of flaps
+  /// has.
+  void check_flap(const WaveMakerCard& c, const Paddle& p) {
+    Real lowest = std::numeric_limits<Real>::infinity();
+    for (Index s = 0; s < world_.segments.size(); ++s) {
+      if (model_.parts[static_cast<std::size_t>(world_.segments.part[s])].id != c.pid) continue;
+      for (const Index n : world_.segments.nodes(s))
+        lowest = std::min(lowest, (world_.nodes.x.vec(n) - p.bed).dot(p.up));
+    }
+    constexpr Real some = 0.01;  // of the depth
+    if (c.hinge > 0 && lowest < c.hinge - some * c.d)
+      error(c, "HINGE",
+            fmt::format(
+                "the paddle begins {:g} above the bed, below its hinge at {:g}, and would turn the other "
+                "direction there",
+                lowest, c.hinge),
+            "let the paddle begin at the hinge, above a wall that is held");
+    if (c.absorb > 0)
+      deck_.warning(
+          diagnostics_, c, "ABSORB",
+          "the level before an inclined paddle is measured too high, so that a flap that absorbs leans "
+          "back more and more, by 0.7 D in ten periods of small waves",
+          "let a piston absorb, or give TDRIFT and look at the displacement");
   }
 
   void check_free(const WaveMakerCard& c, const RigidBody& body, const Paddle& p) {

@@ -82,6 +82,9 @@ def test_faults() -> None:
         mesh_of(x[:0], 2, 0.1)
     with pytest.raises(NoSurface, match="larger cell"):
         mesh_of(x, 2, 0.1, cell=1e-6)
+    for cell in (10.0, 0.0, -1.0, float("nan")):
+        with pytest.raises(NoSurface, match="do not fit"):
+            mesh_of(x, 2, 0.1, cell=cell)
     with pytest.raises(NoSurface, match="between 0 and 1"):
         mesh_of(x, 2, 0.1, level=1.0)
 

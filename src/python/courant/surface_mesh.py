@@ -97,13 +97,15 @@ def surface_mesh(x: np.ndarray, volume: np.ndarray, h: np.ndarray, dim: int, *, 
         raise NoSurface(f"the level is {level:g}: it must be between 0 and 1")
     spacing = np.asarray(volume, dtype=float) ** (1 / dim)
     scale = np.minimum(width * h, _WIDEST * spacing)
-    cell = _CELL * float(spacing.min()) if cell is None else cell
+    cell = _CELL * float(spacing.min()) if cell is None else float(cell)
+    if not 0 < cell <= 2 * float(spacing.max()):
+        raise NoSurface(f"cells of {cell:g} do not fit particles {float(spacing.max()):g} apart: give a length above 0 and below twice that")
     reach = _CUT * float(scale.max())
     low, high = x.min(axis=0) - reach - cell, x.max(axis=0) + reach + cell
     n = np.ceil((high - low) / cell).astype(int) + 1
     if dim == 2:
         low[2], n[2] = 0.0, 1
-    if not cell > 0 or float(np.prod(n.astype(float))) > _MOST_CELLS:
+    if float(np.prod(n.astype(float))) > _MOST_CELLS:
         raise NoSurface(f"a grid of cells of {cell:g} would have {float(np.prod(n.astype(float))):.3g} points; {_MOST_CELLS:.0e} are the limit: give a larger cell")
     colour, sums = _splatted(x, volume, scale, dim, low, n, cell, values or {})
     inside = float(np.median(colour[colour > 0.9 * np.quantile(colour[colour > 0], 0.95)]))

@@ -123,6 +123,38 @@ TEST(GhostLattice, WarnsOfABodyThatIsThinnerThanHalfOfTheReach) {
   for (const Index s : laid.thin) EXPECT_GE(s, 3);
 }
 
+// Shells much shorter than the spacing have no point of the lattice straight over them.
+TEST(GhostLattice, DoesNotDependOnTheLengthOfShells) {
+  const auto cut = [](const std::vector<Line>& lines, int n) {
+    std::vector<Line> out;
+    for (const auto& [a, b] : lines)
+      for (int k = 0; k < n; ++k) out.emplace_back(Vec(a + (b - a) * k / n), Vec(a + (b - a) * (k + 1) / n));
+    return out;
+  };
+  std::vector<Line> lines{{at(0, 0.8), at(0.5, 0)}, {at(0.5, 0), at(1, 0)}, {at(1, 0), at(1.5, 0.8)}};
+  const std::vector<std::pair<Vec, Vec>> water{{at(0.5, 0), at(1, 0.6)}};
+  const LaidGhosts whole = Tank(lines, water).lay();
+  EXPECT_GT(whole.ghosts.size(), 80U);
+  for (const int n : {7, 60}) {
+    const LaidGhosts fine = Tank(cut(lines, n), water).lay();
+    EXPECT_EQ(fine.ghosts.size(), whole.ghosts.size()) << n;
+    EXPECT_TRUE(fine.dry.empty()) << n;
+    EXPECT_TRUE(fine.wet_on_both_sides.empty()) << n;
+  }
+}
+
+TEST(GhostLattice, SurroundsWaterInACircle) {
+  for (const int n : {24, 200}) {
+    std::vector<Line> circle;
+    const auto on = [n](int k) { return at(std::cos(2 * M_PI * k / n), std::sin(2 * M_PI * k / n)); };
+    for (int k = 0; k < n; ++k) circle.emplace_back(on(k), on(k + 1));
+    const LaidGhosts laid = Tank(circle, {{at(-0.5, -0.5), at(0.5, 0)}}).lay();
+    const Real inner = 1 - 0.49 * dx, ring = M_PI * (1.4 * 1.4 - inner * inner);  // with what water keeps off
+    EXPECT_NEAR(static_cast<Real>(laid.ghosts.size()) * dx * dx, ring, 0.05 * ring) << n;
+    EXPECT_TRUE(laid.dry.empty()) << n;
+  }
+}
+
 // The bed behind a gate is wet as soon as the gate is open: it has ghosts below it, and none above.
 TEST(GhostLattice, TakesAGateForNoObstacleOfTheBed) {
   const std::vector<Line> lines{
