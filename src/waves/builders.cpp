@@ -126,8 +126,8 @@ class WaveMakerBuilder {
     return 0;
   }
 
-  /// What turns about the hinge is above it: below, it would move the other way, which no theory of flaps
-  /// has.
+  /// What turns about the hinge is above it: below, it would move in the other direction, which no theory of
+  /// flaps has.
   void check_flap(const WaveMakerCard& c, const Paddle& p) {
     Real lowest = std::numeric_limits<Real>::infinity();
     for (Index s = 0; s < world_.segments.size(); ++s) {

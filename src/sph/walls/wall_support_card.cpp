@@ -78,7 +78,7 @@ void check_ghosts(const CourantWallSupport& c, const Deck& deck, const Model& mo
   refuse(s.volume_tau > 0, "with *COURANT_VOLUME_CONTROL");
   refuse(s.shift.strength > 0, "with shifting (ISHIFT of *CONTROL_SPH)");
   refuse(s.xsph > 0 || s.velocity_smoothing > 0, "with *COURANT_XSPH");
-  refuse(s.reinitialisation.every > 0, "with *COURANT_DENSITY_REINITIALISATION");
+  refuse(s.reinitialisation.every > 0, "where densities are re-initialised");
   refuse(s.mixing_length.most > 0 || deck.last<CourantTurbulence>() != nullptr, "with a model of turbulence");
   refuse(c.cf > 0 || c.law != 0, "with friction (CF, LAW)");
   refuse(deck.last<CourantWallBelt>() != nullptr, "with *COURANT_WALL_BELT");

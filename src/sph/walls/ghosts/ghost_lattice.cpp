@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "parallel/parallel.hpp"
+#include "sph/walls/ghosts/wall_facet.hpp"
 
 namespace courant {
 
@@ -21,20 +22,9 @@ constexpr Real most_in_front = 0.49;    ///< of a spacing: water keeps half a sp
 constexpr Real level_tolerance = 1e-6;  ///< of a spacing
 constexpr Real right_behind = 1e-3;     ///< of a spacing: a foot so far past an edge is on it
 constexpr Real cone_cosine = 0.5;       ///< water in sight of a shell is before it within 60 degrees
-constexpr Real off_cone = 0.05;         ///< of 1: directions so near a cone of normals are in it
 constexpr Real least_thickness = 0.9;   ///< of the reach: water acts through thinner walls
 
-/// A flat piece of wall: a triangle, in 2D a line.
-struct Facet {
-  std::array<Vec, 3> x;
-  Vec n = Vec::Zero();
-  Index segment = 0;
-  Index part = 0;
-  bool wet[2]{false, false};  ///< whether water can reach its side along n, and the other one
-  bool used() const { return wet[0] != wet[1]; }
-  /// 1 where n points out of the water, -1 else.
-  Real outwards() const { return wet[1] ? 1 : -1; }
-};
+using Facet = WallFacet;
 
 class Layer {
  public:
@@ -78,6 +68,7 @@ class Layer {
     for (std::size_t e = 0; e < 4; ++e) x[e] = flat(world_.nodes.x.vec(nodes[e]));
     Facet f;
     f.segment = segment;
+    f.is_line = to_.dim == 2;
     f.part = world_.segments.part[segment];
     if (to_.dim == 2) {  // the line that the shell has in the plane of the flow
       Vec a = x[0], b = x[0];
@@ -205,23 +196,8 @@ class Layer {
     at = x[k] + f.n.dot(f.x[0] - x) / f.n[k];
     Vec q = x;
     q[k] = at;
-    return past_edges(f, q) <= widened * dx_;
+    return f.past_edges(q) <= widened * dx_;
   }
-  /// How far q, in the plane of the facet, is outside of its edges; < 0: inside. [L]
-  Real past_edges(const Facet& f, const Vec& q) const {
-    if (to_.dim == 2) {
-      const Vec along = (f.x[1] - f.x[0]).normalized();
-      const Real s = (q - f.x[0]).dot(along);
-      return std::max(-s, s - (f.x[1] - f.x[0]).norm());
-    }
-    Real most = -1e300;
-    for (std::size_t e = 0; e < 3; ++e) {
-      const Vec edge = f.x[(e + 1) % 3] - f.x[e];
-      most = std::max(most, -f.n.cross(edge).normalized().dot(q - f.x[e]));
-    }
-    return most;
-  }
-
   void block(const Facet& f) {
     const Vec low = f.x[0].cwiseMin(f.x[1]).cwiseMin(f.x[2]), high = f.x[0].cwiseMax(f.x[1]).cwiseMax(f.x[2]);
     const Vec margin = Vec::Constant(1.01 * dx_);
@@ -307,36 +283,17 @@ class Layer {
   bool can_see(const Vec& from, const Vec& to) const {
     if ((to - from).norm() < right_behind * dx_) return true;
     bool is = true;
-    for_facets_near(0.5 * (from + to), [&](const Facet& f) { is = is && !crosses(f, from, to); });
+    for_facets_near(0.5 * (from + to), [&](const Facet& f) { is = is && !f.crosses(from, to); });
     return is;
   }
-  bool crosses(const Facet& f, const Vec& from, const Vec& to) const {
-    const Real a = f.n.dot(from - f.x[0]), b = f.n.dot(to - f.x[0]);
-    return a * b < 0 && past_edges(f, from + a / (a - b) * (to - from)) <= 0;
-  }
-
   // ---- sides of shells ----
-
-  template <class F>
-  void for_each_sample(const Facet& f, F&& take) const {
-    const Vec e1 = f.x[1] - f.x[0];
-    if (to_.dim == 2) {
-      const auto n = static_cast<int>(std::ceil(e1.norm() / dx_));
-      for (int k = 0; k < n; ++k) take(Vec(f.x[0] + (k + 0.5) / n * e1));
-      return;
-    }
-    const Vec e2 = f.x[2] - f.x[0];
-    const auto n = static_cast<int>(std::ceil(std::max({e1.norm(), e2.norm(), (e2 - e1).norm()}) / dx_));
-    for (int a = 0; a < n; ++a)
-      for (int b = 0; a + b < n; ++b) take(Vec(f.x[0] + (a + 1.0 / 3) / n * e1 + (b + 1.0 / 3) / n * e2));
-  }
 
   /// Which sides of a shell water can reach: it does where a wet point of the lattice is within two
   /// spacings of it, straight in front. What is farther off may be around a corner.
   void look_at_sides(Facet& f) {
     f.wet[0] = f.wet[1] = false;
     const Real far = 1.75 * dx_;
-    for_each_sample(f, [&](const Vec& x) {
+    for (const Vec& x : f.samples(dx_)) {
       if (f.wet[0] && f.wet[1]) return;
       const Vec margin = Vec::Constant(far);
       for_each_cell(cells_between(x - margin, x + margin), [&](const Cell& c) {
@@ -348,11 +305,11 @@ class Layer {
         // along the normal, so that no other shell can be met but one that is nearer; of shells shorter than
         // the spacing, which may have no point of the lattice over them, within a cone about it
         const Vec foot = point_of(c) - height * f.n;
-        const bool straight = past_edges(f, foot) <= 0;
+        const bool straight = f.past_edges(foot) <= 0;
         if (!straight && !(std::abs(height) > cone_cosine * d.norm())) return;
         if (!between(f, straight ? foot : x, point_of(c))) f.wet[front ? 0 : 1] = true;
       });
-    });
+    }
   }
 
   /// Whether another facet is between a foot on facet f and a point over it.
@@ -360,7 +317,7 @@ class Layer {
     const Vec from = foot + on_wall * (x - foot);
     bool is = false;
     for_facets_near(0.5 * (from + x),
-                    [&](const Facet& other) { is = is || (&other != &f && crosses(other, from, x)); });
+                    [&](const Facet& other) { is = is || (&other != &f && other.crosses(from, x)); });
     return is;
   }
 
@@ -408,23 +365,6 @@ class Layer {
 
   // ---- ghosts ----
 
-  /// The point of a facet next to x.
-  Vec nearest(const Facet& f, const Vec& x) const {
-    const auto on_edge = [&](const Vec& a, const Vec& b) {
-      const Real t = (x - a).dot(b - a) / (b - a).squaredNorm();
-      return Vec(a + std::clamp(t, Real(0), Real(1)) * (b - a));
-    };
-    if (to_.dim == 2) return on_edge(f.x[0], f.x[1]);
-    const Vec foot = x - f.n.dot(x - f.x[0]) * f.n;
-    if (past_edges(f, foot) <= 0) return foot;
-    Vec best = on_edge(f.x[0], f.x[1]);
-    for (const auto& [a, b] : {std::pair{1, 2}, {2, 0}}) {
-      const Vec q = on_edge(f.x[static_cast<std::size_t>(a)], f.x[static_cast<std::size_t>(b)]);
-      if ((q - x).norm() < (best - x).norm()) best = q;
-    }
-    return best;
-  }
-
   struct Candidate {
     Real distance = 1e300;
     Vec foot = Vec::Zero();      ///< the nearest point of the walls
@@ -433,19 +373,6 @@ class Layer {
     Real distance_behind = 1e300;  ///< from the nearest facet that it is right behind
     Index right_behind = -1;       ///< the segment of that
   };
-
-  /// Whether a direction is a sum of these unit vectors with weights >= 0, found by descent along each in
-  /// turn.
-  static bool in_cone(const Vec& direction, const std::vector<Vec>& normals) {
-    std::vector<Real> weight(normals.size(), 0);
-    Vec rest = direction;
-    for (int round = 0; round < 40; ++round)
-      for (std::size_t k = 0; k < normals.size(); ++k) {
-        const Real change = std::max(weight[k] + normals[k].dot(rest), Real(0)) - weight[k];
-        weight[k] += change, rest -= change * normals[k];
-      }
-    return rest.norm() < off_cone;
-  }
 
   /// A dry point is a ghost where it is right behind a facet, at any distance within the reach; or where the
   /// nearest point of the walls is on an edge or in a corner, if its direction from there is between the
@@ -465,7 +392,7 @@ class Layer {
         const Vec x = point_of(c);
         const Real height = n.dot(x - f->x[0]);
         if (std::abs(height) > ((state_[i] & wet) != 0 ? most_in_front * dx_ : to_.reach)) return;
-        const Vec foot = nearest(*f, x);
+        const Vec foot = f->nearest(x);
         const Real distance = (x - foot).norm();
         if (distance > to_.reach) return;
         Candidate& known = near[i];
@@ -500,13 +427,12 @@ class Layer {
   /// are wet.
   bool water_behind(const Facet& f) const {
     bool is = false;
-    for_each_sample(f, [&](const Vec& x) {
+    for (const Vec& x : f.samples(dx_))
       for (Real s = 0.5; !is && s * dx_ < least_thickness * to_.reach; s += 0.5) {
         const Vec q = x + s * dx_ * f.outwards() * f.n;
         is = true;
         for_each_cell(cells_between(q, q), [&](const Cell& c) { is = is && (state_[index(c)] & wet) != 0; });
       }
-    });
     return is;
   }
 
