@@ -175,6 +175,20 @@ TEST(WallGhosts, FloatBodiesAsDeepAsArchimedesSays) {
   EXPECT_LT(std::abs(residual(*s)), 0.01);
 }
 
+// Drops see few ghosts, and these see few of them: what a ghost takes must be what it gives, to the last bit
+// of its weights.
+TEST(WallGhosts, KeepTheEnergyOfDrops) {
+  for (const char* n : {"2", "3", "10"})
+    for (const char* tssfac : {"0.5", "0.9"}) {
+      const auto s = started(deck("falling_block", {{"n", n}, {"tssfac", tssfac}}));
+      run(*s, 0.3);
+      const Real lost = residual(*s), work = s->world().maxima["wall_ghost_work"] / s->world().energy.scale();
+      std::printf("n %s, TSSFAC %s: energy %.1e, work of ghosts %.1e\n", n, tssfac, lost, work);
+      EXPECT_LT(std::abs(lost), 0.02);
+      EXPECT_LT(std::abs(work), 0.02);
+    }
+}
+
 TEST(WallGhosts, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
   test::expect_same_bits(deck("floating_box", {{"n", "6"}, {"lift", "0.02"}}), 60, 25);
   test::expect_same_bits(deck("carried_box", {{"n", "8"}, {"omega", "3"}, {"a", "2"}}), 60, 25);
