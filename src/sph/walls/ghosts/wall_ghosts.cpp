@@ -271,18 +271,14 @@ void WallGhosts::run(Loop loop, const GhostArrays& a) const {
   });
 }
 
+/// Of the rates; the forces need more (`set_pressures`).
 GhostArrays WallGhosts::arrays(World& world) {
   Particles& p = world.particles;
   GhostArrays a{};
-  for (int k = 0; k < 3; ++k) {
-    a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
-    a.g[k] = rise_[k].data(), a.force[k] = force_[k].data();
-  }
-  for (int k = 0; stress_ != nullptr && k < 6; ++k) a.tau[k] = stress_->data(k);
-  a.V = volumes_->current(), a.p = pressure_.data(), a.rho = p.rho.data();
-  a.h = h_, a.kernel = &any_kernel(kernel_), a.first = p.size(), a.pressure = value_.data();
-  a.excess = excess_.data(), a.volume_rate = volume_rate_.data();
-  a.squeeze = squeeze_.data(), a.drhodt = p.drhodt.data(), a.half_step = half_step_;
+  for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
+  a.V = volumes_->current(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
+  a.h = h_, a.half_step = half_step_, a.kernel = &any_kernel(kernel_), a.first = p.size();
+  a.squeeze = squeeze_.data(), a.volume_rate = volume_rate_.data();
   return a;
 }
 
@@ -318,7 +314,11 @@ void WallGhosts::set_pressures(World& world) {
     for (int c = 0; c < 3; ++c) rise_[c][k] = g[c];
   });
   excess_.swap(excess_before_);
-  run(pressure_loop_, arrays(world));
+  GhostArrays a = arrays(world);
+  for (int k = 0; k < 3; ++k) a.g[k] = rise_[k].data(), a.force[k] = force_[k].data();
+  for (int k = 0; stress_ != nullptr && k < 6; ++k) a.tau[k] = stress_->data(k);
+  a.p = pressure_.data(), a.pressure = value_.data(), a.excess = excess_.data();
+  run(pressure_loop_, a);
   for_each(count(), [&](Index k) { pressure_[first + k] = value_[k]; });
 }
 
@@ -458,6 +458,7 @@ class WallGhostForce : public Force {
     a.in_start().updates(*s.contact_force).updates(world.nodes.f);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
     a.in_finish().updates(*s.contact_force).updates(world.nodes.f).reads(world.nodes.x);
+    a.reads(world.particles.x);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
   }
   void start(World& world, const Clock&) override { ghosts_->take_back_forces(world); }
