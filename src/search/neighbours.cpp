@@ -190,14 +190,19 @@ void Neighbours::GroupNeighbours::make_room(Index more) {
   found.within = within.data(), found.beyond = beyond.data();
 }
 
-void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scratch& scratch) const {
-  const Particles& p = world.particles;
+/// The box around the entities of a query.
+static std::pair<Vec, Vec> box_of(const Particles& p, const NearQuery& q) {
   Vec low = p.x.vec(q.first), high = low;
   for (Index k = 1; k < q.count; ++k) {
     const Vec x = p.x.vec(q.first + k);
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
+  return {low, high};
+}
+
+void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scratch& scratch) const {
+  const auto [low, high] = box_of(world.particles, q);
   for (GroupNeighbours* to : {&scratch.other, &scratch.later, &scratch.earlier}) to->found = {};
   const auto look = [&](Index begin, Index end, GroupNeighbours& to) {
     if (begin >= end) return;
@@ -220,11 +225,7 @@ void Neighbours::add_active_near(const World& world, Index first, Index count, s
   const NearQuery q{p.x.data(0), p.x.data(1), world.dim == 3 ? p.x.data(2) : nullptr,
                     p.h.data(),  first,       count,
                     skin_,       support_,    h_min_ == h_max_};
-  Vec low = p.x.vec(first), high = low;
-  for (Index k = first + 1; k < first + count; ++k) {
-    low = low.cwiseMin(p.x.vec(k));
-    high = high.cwiseMax(p.x.vec(k));
-  }
+  const auto [low, high] = box_of(p, q);
   thread_local GroupNeighbours near;
   near.found = {};
   grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first_cell, Index last_cell) {

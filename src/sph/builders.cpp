@@ -23,7 +23,7 @@ namespace courant {
 namespace {
 
 /// Ghosts behind planes, and behind shells.
-struct Ghosts {
+struct GhostsOfScene {
   std::vector<GhostPlane> planes{};
   std::shared_ptr<Relocation> mirrors{};   ///< null: none
   std::shared_ptr<WallGhosts> of_walls{};  ///< null: none
@@ -72,7 +72,8 @@ void report_what_needs_particles(const Deck& deck, const Model& model, Diagnosti
 }
 
 void add_ghosts(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
-                LeftOut& left_out, Real h, Neighbours& neighbours, SphSettings& settings, Ghosts& out) {
+                LeftOut& left_out, Real h, Neighbours& neighbours, SphSettings& settings,
+                GhostsOfScene& out) {
   const Real reach = neighbours.support() * h + neighbours.largest_skin();
   out.planes = build_ghost_planes(deck, model, settings, reach, world, diagnostics);
   if (out.planes.empty())
@@ -93,7 +94,7 @@ void add_ghosts(const Deck& deck, const Model& model, World& world, Diagnostics&
 
 void find_neighbours(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                      LeftOut& left_out, const Injections& injections, SphSettings& settings,
-                     std::shared_ptr<Neighbours>& neighbours, Ghosts& ghosts, MotionLimits& limits,
+                     std::shared_ptr<Neighbours>& neighbours, GhostsOfScene& ghosts, MotionLimits& limits,
                      ParticleContactRules& rules) {
   limits = {settings.dim, settings.region.has_value(), {}};
   if (world.particles.size() == 0) {
@@ -138,7 +139,7 @@ void set_pressures(const Deck& deck, const Model& model, World& world, Diagnosti
 
 void add_passes(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                 LeftOut& left_out, const ParticlePressures&, const std::vector<PartMaterial>& materials,
-                const SphSettings& settings, const Ghosts& ghosts, const PointLoads& loads,
+                const SphSettings& settings, const GhostsOfScene& ghosts, const PointLoads& loads,
                 const std::shared_ptr<Neighbours>& neighbours, FlowPasses&) {
   if (!neighbours) return;
   const Points particles = points_of(world.particles);

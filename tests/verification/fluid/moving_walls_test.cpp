@@ -12,6 +12,8 @@ using namespace courant;
 namespace moving_walls_test {
 namespace {
 
+using test::started;
+
 constexpr Real rho0 = 1000, g = 9.81;
 using Parameters = std::map<std::string, std::string>;
 
@@ -19,15 +21,6 @@ using Parameters = std::map<std::string, std::string>;
 std::string freed(std::string text) {
   const auto from = text.find("*INITIAL_VELOCITY_RIGID"), to = text.find("*SECTION_SHELL");
   return text.erase(from, to - from);
-}
-std::unique_ptr<Simulation> started(const std::string& text) {
-  auto s = test::simulation_of(text);
-  if (!s) return s;
-  std::string who;
-  s->evaluate(who);
-  sample_energy(s->world(), s->clock());
-  s->world().energy.initial = s->world().energy.total();
-  return s;
 }
 std::unique_ptr<Simulation> box(const Parameters& parameters) {
   return started(test::deck_of_scene("carried_box", parameters));

@@ -12,6 +12,8 @@ using namespace courant;
 namespace wall_ghosts_test {
 namespace {
 
+using test::started;
+
 constexpr Real rho0 = 1000, g = 9.81;
 using Parameters = std::map<std::string, std::string>;
 
@@ -19,15 +21,6 @@ using Parameters = std::map<std::string, std::string>;
 std::string deck(const std::string& scene, Parameters parameters) {
   parameters["method"] = "2";
   return test::deck_of_scene(scene, parameters);
-}
-std::unique_ptr<Simulation> started(const std::string& text) {
-  auto s = test::simulation_of(text);
-  if (!s) return s;
-  std::string controlled_by;
-  s->evaluate(controlled_by);
-  sample_energy(s->world(), s->clock());
-  s->world().energy.initial = s->world().energy.total();
-  return s;
 }
 void run(Simulation& s, Real until) {
   while (s.clock().t < until) s.step(test::do_nothing);

@@ -95,6 +95,13 @@ inline void start_ledger(Simulation& s) {
   s.world().energy.initial = s.world().energy.total();
 }
 
+/// A deck as it starts, with its ledger; null, with a failure, where it is wrong.
+inline std::unique_ptr<Simulation> started(const std::string& text) {
+  auto s = simulation_of(text);
+  if (s) start_ledger(*s);
+  return s;
+}
+
 /// What the ledger cannot explain, of the energy of the start and that from outside.
 inline Real energy_error(World& world, const Clock& clock) {
   sample_energy(world, clock);

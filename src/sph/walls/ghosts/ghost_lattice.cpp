@@ -8,7 +8,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "parallel/parallel.hpp"
 #include "sph/walls/ghosts/wall_facet.hpp"
 
 namespace courant {
@@ -286,6 +285,7 @@ class Layer {
     for_facets_near(0.5 * (from + to), [&](const Facet& f) { is = is && !f.crosses(from, to); });
     return is;
   }
+
   // ---- sides of shells ----
 
   /// Which sides of a shell water can reach: it does where a wet point of the lattice is within two

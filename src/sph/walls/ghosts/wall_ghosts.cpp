@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <stdexcept>
 
 #include "parallel/parallel.hpp"
 #include "sph/core/fields.hpp"
@@ -165,16 +164,15 @@ void WallGhosts::build(World& world, Real support, Real skin) {
     }
   });
   p.fields.make_room_for_ghosts(count());
-  set_positions(world);
+  set_positions(world, built_);
 }
 
-/// As of the last search.
-void WallGhosts::set_positions(World& world) const {
+void WallGhosts::set_positions(World& world, const std::vector<PartFrame::Pose>& poses) const {
   Particles& p = world.particles;
   const Index first = p.size();
   for_each(count(), [&](Index k) {
     const Ghost& one = ghost(k);
-    p.x.set(first + k, built_[static_cast<std::size_t>(one.frame)].from(one.x));
+    p.x.set(first + k, poses[static_cast<std::size_t>(one.frame)].from(one.x));
   });
 }
 
@@ -192,40 +190,39 @@ void WallGhosts::sort(World& world, std::span<const Index> order) {
   }
   std::fill(p.h.data() + first, p.h.data() + first + count(), h_);
   volumes_->set_ghosts(world, count(), volume_);
-  set_positions(world);
+  set_positions(world, built_);
+}
+
+/// Lists of the groups of n entities: `add(first, count, entries)` appends those of the group of `count` from
+/// `first` on.
+template <class Add>
+void WallGhosts::fill_lists(Index n, std::vector<List>& lists, const Add& add) {
+  lists.resize(static_cast<std::size_t>(block_count(n)));
+  for_each_block(n, [&](Index begin, Index end) {
+    List& list = lists[static_cast<std::size_t>(begin / block_size)];
+    list.entries.clear();
+    for (Index g = 0; g < Neighbours::groups_per_block; ++g) {
+      list.start[static_cast<std::size_t>(g)] = static_cast<Index>(list.entries.size());
+      const Index from = begin + g * Neighbours::lanes, size = std::min(Neighbours::lanes, end - from);
+      if (size > 0) add(from, size, list.entries);
+    }
+    list.start[Neighbours::groups_per_block] = static_cast<Index>(list.entries.size());
+  });
 }
 
 void WallGhosts::relist(World& world) {
   const Index n = count(), first = world.particles.size();
-  lists_.resize(static_cast<std::size_t>(block_count(n)));
-  for_each_block(n, [&](Index begin, Index end) {
-    List& list = lists_[static_cast<std::size_t>(begin / block_size)];
-    list.entries.clear();
-    for (Index g = 0; g < Neighbours::groups_per_block; ++g) {
-      const auto at = static_cast<std::size_t>(g);
-      list.start[at] = static_cast<Index>(list.entries.size());
-      const Index from = begin + g * Neighbours::lanes, size = std::min(Neighbours::lanes, end - from);
-      if (size > 0) neighbours_->add_active_near(world, first + from, size, list.entries);
-    }
-    list.start[Neighbours::groups_per_block] = static_cast<Index>(list.entries.size());
+  fill_lists(n, lists_, [&](Index from, Index size, std::vector<Index>& entries) {
+    neighbours_->add_active_near(world, first + from, size, entries);
+  });
+  fill_lists(world.particles.active, seen_, [&](Index from, Index, std::vector<Index>& entries) {
+    for (const Index j : neighbours_->listed(from / Neighbours::lanes))
+      if (j >= first) entries.push_back(j);
   });
   for (auto* arrays : {rise_, force_})
     for (int k = 0; k < 3; ++k) arrays[k].assign(static_cast<std::size_t>(n), Real(0));
   for (auto* array : {&value_, &excess_, &excess_before_, &squeeze_, &volume_rate_})
     array->assign(static_cast<std::size_t>(n), Real(0));
-  const Index active = world.particles.active;
-  seen_.resize(static_cast<std::size_t>(block_count(active)));
-  for_each_block(active, [&](Index begin, Index end) {
-    List& list = seen_[static_cast<std::size_t>(begin / block_size)];
-    list.entries.clear();
-    for (Index g = 0; g < Neighbours::groups_per_block; ++g) {
-      list.start[static_cast<std::size_t>(g)] = static_cast<Index>(list.entries.size());
-      if (begin + g * Neighbours::lanes >= end) continue;
-      for (const Index j : neighbours_->listed(begin / Neighbours::lanes + g))
-        if (j >= first) list.entries.push_back(j);
-    }
-    list.start[Neighbours::groups_per_block] = static_cast<Index>(list.entries.size());
-  });
 }
 
 void WallGhosts::keep(Archive& archive) {
@@ -239,8 +236,8 @@ void WallGhosts::keep(Archive& archive) {
   archive("omega", omega_);
   archive("half_step", half_step_);
   archive("excess", excess_);
-  if (archive.loading()) excess_.swap(saved_excess_);
   if (!archive.loading()) return;
+  excess_.swap(saved_excess_);
   built_.assign(positions.size() / 4, {});
   for (std::size_t f = 0; f < built_.size(); ++f) {
     built_[f].x = positions[4 * f];
@@ -331,10 +328,7 @@ void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields
   if (asks(&p.x) && any_moves()) {
     std::vector<PartFrame::Pose> poses;
     find_poses(world, poses);
-    for_each(count(), [&](Index k) {
-      const Ghost& one = ghost(k);
-      if (one.frame > 0) p.x.set(first + k, poses[static_cast<std::size_t>(one.frame)].from(one.x));
-    });
+    set_positions(world, poses);
   }
   if (asks(potential_))
     for_each(count(), [&](Index k) {
@@ -373,7 +367,7 @@ void WallGhosts::record(World& world, const Clock& clock, EnergyLedger& ledger) 
 // Of each segment the force and the moment about its middle; nodes get forces of that sum and that moment.
 void WallGhosts::add_forces(World& world, bool moving) const {
   struct Load {
-    Vec force = Vec::Zero(), moment = Vec::Zero();
+    Vec middle, force = Vec::Zero(), moment = Vec::Zero();
   };
   std::map<Index, Load> loads;
   const Index first = world.particles.size();
@@ -388,23 +382,24 @@ void WallGhosts::add_forces(World& world, bool moving) const {
     const Ghost& one = ghost(k);
     const Vec F = force(k);
     if ((one.frame > 0) != moving || F.isZero(0)) continue;
-    Load& load = loads[one.segment];
+    const auto [known, is_new] = loads.try_emplace(one.segment);
+    Load& load = known->second;
+    if (is_new) load.middle = middle(one.segment);
     load.force += F;
-    load.moment += in_plane(world.particles.x.vec(first + k) - middle(one.segment), dim_).cross(F);
+    load.moment += in_plane(world.particles.x.vec(first + k) - load.middle, dim_).cross(F);
   }
   for (const auto& [segment, load] : loads) {
     const auto nodes = world.segments.nodes(segment);
     const int n = nodes[2] == nodes[3] ? 3 : 4;
-    const Vec centre = middle(segment);
     Matrix inertia = Matrix::Zero();
     for (int e = 0; e < n; ++e) {
-      const Vec r = world.nodes.x.vec(nodes[static_cast<std::size_t>(e)]) - centre;
+      const Vec r = world.nodes.x.vec(nodes[static_cast<std::size_t>(e)]) - load.middle;
       inertia += r.squaredNorm() * Matrix::Identity() - r * r.transpose();
     }
     const Vec turn = inertia.completeOrthogonalDecomposition().solve(load.moment);
     for (int e = 0; e < n; ++e) {
       const Index node = nodes[static_cast<std::size_t>(e)];
-      world.nodes.f.add(node, load.force / n + turn.cross(world.nodes.x.vec(node) - centre));
+      world.nodes.f.add(node, load.force / n + turn.cross(world.nodes.x.vec(node) - load.middle));
     }
     world.segments.contact_force->add(segment, load.force);
   }

@@ -92,15 +92,21 @@ class WallGhosts : public Ghosts,
     Index segment;
     Index frame;  ///< 0: it is held
   };
+  struct List {  ///< of a block, by groups
+    std::vector<Index> entries;
+    std::array<Index, Neighbours::groups_per_block + 1> start{};
+  };
   struct Box {
     Vec low, high;
   };
   void find_poses(const World& world, std::vector<PartFrame::Pose>& poses) const;
-  void set_positions(World& world) const;
+  void set_positions(World& world, const std::vector<PartFrame::Pose>& poses) const;
   void set_velocities(World& world) const;
   void follow_driven(const World& world, const Clock& clock);
   void set_pressures(World& world);
   GhostArrays arrays(World& world);
+  template <class Add>
+  static void fill_lists(Index n, std::vector<List>& lists, const Add& add);
   template <class Loop>
   void run(Loop loop, const GhostArrays& a) const;
   const Ghost& ghost(Index k) const {
@@ -129,10 +135,6 @@ class WallGhosts : public Ghosts,
   std::vector<PartFrame::Pose> built_;       ///< where frames were when neighbours were searched last
   bool loaded_ = false;                      ///< `built_` comes from a saved state
   std::vector<Index> here_;                  ///< ghosts within reach of the water, in the order of entities
-  struct List {
-    std::vector<Index> entries;
-    std::array<Index, Neighbours::groups_per_block + 1> start{};
-  };
   std::vector<List> lists_, seen_;  ///< of each block of ghosts, the particles near; of particles, the ghosts
   Array<Real> rise_[3], force_[3], value_, excess_, excess_before_, saved_excess_, squeeze_, volume_rate_;
   Real half_step_ = 0;        ///< half of the last step that was chosen [T]
