@@ -73,7 +73,9 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
       Real exchanged = 0;
       for (const Index i : neighbours_->entered()) exchanged += potential_of(now, i);
       for (const Index i : neighbours_->left()) exchanged -= potential_of(now, i);
-      if (neighbours_->ghosts()) exchanged += rise_of_brought_back(now, *neighbours_->ghosts());
+      // loads that are not uniform do not change along a period (check_body_loads_periodic)
+      for (const auto& [part, shift] : neighbours_->brought_back())
+        exchanged += now.rise(Vec::Zero(), shift, part);
       world.energy.external_work += exchanged;
       world.energy.throughput += std::abs(exchanged);
     }
@@ -109,13 +111,6 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
         for (Index i = begin; i < end; ++i) f[i] += m[i] * gk;
       }
     }
-  }
-
-  // Loads that are not uniform do not change along a period (check_body_loads_periodic).
-  static Real rise_of_brought_back(const BodyAcceleration::At& now, const Ghosts& ghosts) {
-    Real sum = 0;
-    for (const auto& [part, shift] : ghosts.brought_back()) sum += now.rise(Vec::Zero(), shift, part);
-    return sum;
   }
 
   Real potential_of(const BodyAcceleration::At& now, Index i) const {

@@ -72,8 +72,8 @@ ParticleLoops::Range depth_range(const ParticleLoops& loops, const GhostPlane& p
   return loops.depths(plane.normal.data(), plane.point.data(), x, begin, end);
 }
 
-GhostParticles::GhostParticles(std::vector<GhostPlane> planes)
-    : planes_(std::move(planes)), narrowest_(std::numeric_limits<Real>::infinity()) {
+GhostParticles::GhostParticles(std::vector<GhostPlane> planes, std::shared_ptr<const Ghosts> of)
+    : planes_(std::move(planes)), of_(std::move(of)), narrowest_(std::numeric_limits<Real>::infinity()) {
   for (const GhostPlane& a : planes_) {
     if (a.period > 0) narrowest_ = std::min(narrowest_, a.period);
     for (const GhostPlane& b : planes_)
@@ -100,8 +100,10 @@ std::shared_ptr<Relocation> GhostParticles::make_mirrors(Acceleration loads) con
 }
 
 template <class Wanted>
-void GhostParticles::find(const GhostPlane& plane, const Particles& p, Index n, const Wanted& is_wanted) {
-  collect(n, scratch_, [&](Index begin, Index end, std::vector<Index>& found) {
+void GhostParticles::find(const GhostPlane& plane, const Particles& p, Index first, Index last,
+                          const Wanted& is_wanted) {
+  collect(last - first, scratch_, [&](Index begin, Index end, std::vector<Index>& found) {
+    begin += first, end += first;
     const auto [least, most, broken] = depth_range(loops_, plane, p, begin, end);
     if (!is_wanted(least) && !is_wanted(most)) return;
     for (Index i = begin; i < end; ++i)
@@ -112,11 +114,12 @@ void GhostParticles::find(const GhostPlane& plane, const Particles& p, Index n, 
 void GhostParticles::bring_back(World& world, Index n) {
   Particles& p = world.particles;
   brought_back_.clear();
+  if (of_) return;
   for (std::size_t k = 0; k < planes_.size(); ++k) {
     const GhostPlane& plane = planes_[k];
     const bool mirror = plane.kind == GhostPlane::Kind::mirror;
     const auto is_outside = [&](Real d) { return d < 0 || (!mirror && d >= plane.period); };
-    find(plane, p, n, is_outside);
+    find(plane, p, 0, n, is_outside);
     for (const Index i : scratch_) {
       const Vec before = p.x.vec(i);
       if (p.state[i] == particle_deactivated || !before.allFinite()) continue;
@@ -141,6 +144,7 @@ void GhostParticles::build(World& world, Real support, Real skin) {
         "ghost particles twice; make the domain wider, or limit h by HMAX of *SECTION_SPH",
         narrowest_, support));
   Particles& p = world.particles;
+  const Index begin = of_ ? of_->first() : 0, end = of_ ? begin + of_->count() : p.moving;
   source_.clear();
   motion_.clear();
   motions_.assign(1, Motion{});
@@ -157,7 +161,7 @@ void GhostParticles::build(World& world, Real support, Real skin) {
         source_.push_back(source);
         motion_.push_back(composed[first]);
       };
-      find(plane, p, p.moving, is_near);
+      find(plane, p, begin, end, is_near);
       for (const Index i : scratch_) ghost(i, 0);
       for (Index m = 0; m < before; ++m)  // corners: copies of copies
         if (is_near(depth(plane, motions_[motion_[m]].of(p.x.vec(source_[m])))))
@@ -167,9 +171,9 @@ void GhostParticles::build(World& world, Real support, Real skin) {
     if (plane.kind == GhostPlane::Kind::periodic)
       add(Motion{Matrix::Identity(), -mirror_[k].b}, [&](Real d) { return plane.period - d < reach; });
   }
-  p.fields.make_room_for_ghosts(count());
-  for_each_block(count(), [&](Index begin, Index end) {  // places are what ghosts are sorted by
-    copy_block(p.x, p.size(), true, begin, end);
+  make_room(world);
+  for_each_block(count(), [&](Index from, Index to) {  // positions are what ghosts are sorted by
+    copy_block(p.x, true, from, to);
   });
 }
 
@@ -189,7 +193,7 @@ void GhostParticles::exchange(World& world, std::span<const FieldBase* const> fi
     if (std::find(fields.begin(), fields.end(), field.get()) != fields.end())
       reals.push_back(&dynamic_cast<Field<Real>&>(*field));
   for_each_block(count(), [&](Index begin, Index end) {
-    for (Field<Real>* field : reals) copy_block(*field, p.size(), field == &p.x, begin, end);
+    for (Field<Real>* field : reals) copy_block(*field, field == &p.x, begin, end);
   });
 }
 
@@ -200,8 +204,8 @@ void GhostParticles::exchange_all(World& world) {
   exchange(world, fields);
 }
 
-/// To entities from `to` on.
-void GhostParticles::copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const {
+void GhostParticles::copy_block(Field<Real>& field, bool place, Index begin, Index end) const {
+  const Index to = first();
   for (Index k = begin; k < end; ++k) {
     const Index source = source_[k];
     const Motion& m = motions_[motion_[k]];

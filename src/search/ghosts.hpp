@@ -48,15 +48,28 @@ class Ghosts : public Exchanger {
     return none;
   }
   /// Finds the ghosts that particles within `support` + `skin` may see, allocates them and sets their
-  /// positions; nothing of earlier ghosts is kept. [L]
+  /// positions; nothing of earlier ghosts is kept. `first` is set, ghosts before it are sorted. [L]
   virtual void build(World& world, Real support, Real skin) = 0;
   virtual Index count() const = 0;
+  /// The entity that is ghost 0: behind particles, and behind the ghosts that were given to Neighbours
+  /// before.
+  Index first() const { return first_; }
+  void set_first(Index first) { first_ = first; }
   /// Puts ghost k at order[k]'s place.
   virtual void sort(World& world, std::span<const Index> order) = 0;
-  /// The particle of which ghost k, entity particles.size() + k, is a copy; -1: of none.
+  /// The entity, a particle or a ghost before `first`, of which ghost k is a copy; -1: of none.
   virtual Index source(Index /*k*/) const { return -1; }
   /// How far any of them has moved by itself since `build`. [L]
   virtual Real largest_move(const World& /*world*/) const { return 0; }
+
+ protected:
+  /// Room in the fields for these ghosts and those before them.
+  void make_room(World& world) const {
+    world.particles.fields.make_room_for_ghosts(first_ - world.particles.size() + count());
+  }
+
+ private:
+  Index first_ = 0;
 };
 
 /// Ghost particles behind planes: neighbours that the pair loops take like any other. A particle within
@@ -66,8 +79,9 @@ class Ghosts : public Exchanger {
 class GhostParticles : public Ghosts {
  public:
   /// Planes must be perpendicular to each other, or parallel and farther apart than particles reach.
-  explicit GhostParticles(std::vector<GhostPlane> planes);
-  std::string name() const override { return "ghost particles"; }
+  /// `of`: ghosts without a source, which have copies behind the planes in place of the particles.
+  explicit GhostParticles(std::vector<GhostPlane> planes, std::shared_ptr<const Ghosts> of = nullptr);
+  std::string name() const override { return of_ ? "copies of " + of_->name() : "ghost particles"; }
 
   /// A pass that reflects at the end of each step what went through a mirror in it; null without mirrors.
   /// `loads`: the acceleration of body loads [L/T2]. It pulled the whole way, towards the mirror and then
@@ -78,8 +92,8 @@ class GhostParticles : public Ghosts {
   /// Through periodic planes.
   const std::map<Index, Vec>& brought_back() const override { return brought_back_; }
 
-  /// Ghosts of particles [0, moving). Throws RunError where h has grown so much that support reaches from one
-  /// plane to the one opposite.
+  /// Ghosts of particles [0, moving), or of `of`. Throws RunError where h has grown so much that support
+  /// reaches from one plane to the one opposite.
   void build(World& world, Real support, Real skin) override;
   Index count() const override { return static_cast<Index>(source_.size()); }
   Index source(Index k) const override { return source_[k]; }
@@ -96,17 +110,18 @@ class GhostParticles : public Ghosts {
     Motion after(const Motion& first) const { return {A * first.A, A * first.b + b}; }
     Vec of(const Vec& x) const { return A * x + b; }
   };
-  /// Leaves in scratch_ those of particles [0, n) whose depth is wanted; no depth may be wanted between two
-  /// that are not.
+  /// Leaves in scratch_ those of entities [first, last) whose depth is wanted; no depth may be wanted between
+  /// two that are not.
   template <class Wanted>
-  void find(const GhostPlane& plane, const Particles& p, Index n, const Wanted& is_wanted);
-  void copy_block(Field<Real>& field, Index to, bool place, Index begin, Index end) const;
+  void find(const GhostPlane& plane, const Particles& p, Index first, Index last, const Wanted& is_wanted);
+  void copy_block(Field<Real>& field, bool place, Index begin, Index end) const;
 
   ParticleLoops loops_ = particle_loops();
   std::vector<GhostPlane> planes_;
+  std::shared_ptr<const Ghosts> of_;    ///< null: copies are of particles
   Real narrowest_;                      ///< distance of planes that face each other; infinite if none do [L]
   std::vector<Motion> mirror_;          ///< of each plane; periodic ones: the shift by +period
-  std::vector<Index> source_, motion_;  ///< of each ghost: the particle, and an index of motions_
+  std::vector<Index> source_, motion_;  ///< of each ghost: the entity, and an index of motions_
   std::vector<Motion> motions_;         ///< the first one is none
   std::map<Index, Vec> brought_back_;
   std::vector<Index> scratch_;

@@ -138,12 +138,12 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
     p.dormant_time = clock.t;
   }
   choose_skin(clock);
-  if (ghosts_) ghosts_->bring_back(world, n);
+  for (const GhostRange& range : ghosts_) range.ghosts->bring_back(world, n);
   sort(world, clock, n);
   p.fields.permute(order_);
   note_changes(p, active_before);
   if (all) queue_dormant(p);
-  if (ghosts_) build_ghosts(world);
+  build_ghosts(world);
   build_lists(world);
   remember_places(world, clock);
   built_ = true;
@@ -215,8 +215,9 @@ void Neighbours::find_list_of_group(const World& world, const NearQuery& q, Scra
     if (whole()) look(begin, std::min(end, q.first), scratch.earlier);
     look(std::max(begin, q.first), std::min(end, last), scratch.other);
     look(std::max(begin, last), end, scratch.later);
-    for (const auto& start : {halo_start_, ghost_start_})
-      if (!start.empty()) look(start[first_cell], start[last_cell + 1], scratch.other);
+    if (!halo_start_.empty()) look(halo_start_[first_cell], halo_start_[last_cell + 1], scratch.other);
+    for (const GhostRange& range : ghosts_)
+      look(range.starts[first_cell], range.starts[last_cell + 1], scratch.other);
   });
 }
 
@@ -228,11 +229,16 @@ void Neighbours::add_active_near(const World& world, Index first, Index count, s
   const auto [low, high] = box_of(p, q);
   thread_local GroupNeighbours near;
   near.found = {};
-  grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first_cell, Index last_cell) {
-    const Index begin = active_start_[first_cell], end = active_start_[last_cell + 1];
+  const auto look = [&](Index begin, Index end) {
     if (begin >= end) return;
     near.make_room(end - begin);
     near_.find(q, begin, end, near.found);
+  };
+  grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first_cell, Index last_cell) {
+    look(active_start_[first_cell], active_start_[last_cell + 1]);
+    for (const GhostRange& range : ghosts_)
+      if (range.ghosts->first() + range.ghosts->count() <= first)
+        look(range.starts[first_cell], range.starts[last_cell + 1]);
   });
   to.insert(to.end(), near.within.begin(), near.within.begin() + near.found.within_count);
   to.insert(to.end(), near.beyond.begin(), near.beyond.begin() + near.found.beyond_count);
@@ -240,15 +246,33 @@ void Neighbours::add_active_near(const World& world, Index first, Index count, s
 
 void Neighbours::build_ghosts(World& world) {
   Particles& p = world.particles;
-  ghosts_->build(world, support_ * h_max_, skin_);
-  const Index n = ghosts_->count(), first = p.size();
-  key_.resize(n);
-  find_cells(p, first, first + n, key_.data());
+  Index first = p.size();
   std::vector<Index> order;
-  counting_sort(key_, grid_.total(), ghost_starts_, order);
-  for (Index& start : ghost_starts_) start += first;
-  ghost_start_ = ghost_starts_;
-  ghosts_->sort(world, order);
+  for (auto& [ghosts, starts] : ghosts_) {
+    ghosts->set_first(first);
+    ghosts->build(world, support_ * h_max_, skin_);
+    const Index n = ghosts->count();
+    key_.resize(n);
+    find_cells(p, first, first + n, key_.data());
+    counting_sort(key_, grid_.total(), starts, order);
+    for (Index& start : starts) start += first;
+    ghosts->sort(world, order);
+    first += n;
+  }
+}
+
+std::map<Index, Vec> Neighbours::brought_back() const {
+  std::map<Index, Vec> all;
+  for (const GhostRange& range : ghosts_)
+    for (const auto& [part, shift] : range.ghosts->brought_back())
+      all.try_emplace(part, Vec::Zero()).first->second += shift;
+  return all;
+}
+
+Index Neighbours::particle_of(const Particles& p, Index j) const {
+  for (auto range = ghosts_.rbegin(); range != ghosts_.rend() && j >= p.size(); ++range)
+    if (j >= range->ghosts->first()) j = range->ghosts->source(j - range->ghosts->first());
+  return j;
 }
 
 void Neighbours::build_lists(World& world) {
@@ -350,7 +374,8 @@ void Neighbours::find_moving_nodes(const World& world) {
 }
 
 bool Neighbours::nodes_moved(const World& world) const {
-  if (ghosts_ && !(ghosts_->largest_move(world) < 0.5 * skin_)) return true;
+  for (const GhostRange& range : ghosts_)
+    if (!(range.ghosts->largest_move(world) < 0.5 * skin_)) return true;
   for (std::size_t k = 0; k < moving_nodes_.size(); ++k)
     if (!((world.nodes.x.vec(moving_nodes_[k]) - nodes_built_[k]).norm() < 0.5 * skin_)) return true;
   return false;

@@ -44,9 +44,12 @@ class Neighbours {
   /// Smoothing lengths never change, so nobody need look whether they have grown.
   void keep_h() { h_changes_ = false; }
 
-  /// From now on the lists also hold these ghosts.
-  void set_ghosts(std::shared_ptr<Ghosts> ghosts) { ghosts_ = std::move(ghosts); }
-  const Ghosts* ghosts() const { return ghosts_.get(); }
+  /// From now on the lists also hold these ghosts, as entities behind those added before.
+  void add_ghosts(std::shared_ptr<Ghosts> ghosts) { ghosts_.push_back({std::move(ghosts), {}}); }
+  /// Of each part, sum of mass times shift of the active particles that the last refresh brought back. [ML]
+  std::map<Index, Vec> brought_back() const;
+  /// The particle that entity j is, or is a copy of; -1: it is a ghost of none.
+  Index particle_of(const Particles& p, Index j) const;
   /// Particles in the state particle_waiting become active when they cross the plane that `inlet` counts from
   /// 0 (and are inside the box, where there is one). Call before the first refresh.
   void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet);
@@ -111,8 +114,8 @@ class Neighbours {
   std::int64_t entries() const { return entries_; }  ///< of all lists
   std::int64_t entries_once() const { return entries_once_; }
 
-  /// Appends the active particles within support + skin of any of `count` <= 8 entities from `first` on, as
-  /// of the last rebuild; of ghosts, which have no lists.
+  /// Appends the active particles within support + skin of any of `count` <= 8 ghosts from entity `first` on,
+  /// as of the last rebuild, and such ghosts of those added before.
   void add_active_near(const World& world, Index first, Index count, std::vector<Index>& to) const;
 
   /// Others within support max(h_i, h_j) of particle i, active here. For tests and reports: slow.
@@ -130,6 +133,10 @@ class Neighbours {
     std::vector<Index> within, beyond;
     NearFound found{};
     void make_room(Index more);
+  };
+  struct GhostRange {
+    std::shared_ptr<Ghosts> ghosts;
+    std::vector<Index> starts;  ///< as active_start_
   };
   struct Scratch {
     GroupNeighbours other, later, earlier;  ///< see ListSections
@@ -174,11 +181,10 @@ class Neighbours {
   std::int64_t built_cycle_ = 0;
   Real h_max_ = 0, h_min_ = 0;
   CellGrid grid_;
-  std::shared_ptr<Ghosts> ghosts_;  ///< null: none
-  /// First sorted particle of each cell, and the end: parts of starts_ and ghost_starts_; empty: there are
-  /// none.
-  std::span<const Index> active_start_, halo_start_, ghost_start_;
-  std::vector<Index> starts_, ghost_starts_;
+  std::vector<GhostRange> ghosts_;
+  /// First sorted particle of each cell, and the end: parts of starts_; empty: there are none.
+  std::span<const Index> active_start_, halo_start_;
+  std::vector<Index> starts_;
   std::vector<Block> blocks_;
   std::int64_t entries_ = 0, entries_once_ = 0;
   bool tasks_wanted_ = false, whole_needed_ = false;

@@ -143,7 +143,7 @@ void Neighbours::sort(World& world, const Clock& clock, Index n) {
   Real spacing = count > 0 ? std::min(std::pow(e.volume / count, 1.0 / world.dim), 1.2 * h_max_) : 0;
   if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
   if (!(spacing > 0)) spacing = 1;
-  if (ghosts_) {  // cells beyond the particles, where ghosts may stand
+  if (!ghosts_.empty()) {  // cells beyond the particles, where ghosts may stand
     const Vec reach = Vec::Constant(support_ * h_max_ + most_skin_);
     e.low -= reach, e.high += reach;
     if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];

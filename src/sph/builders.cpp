@@ -87,9 +87,21 @@ void add_ghosts(const Deck& deck, const Model& model, World& world, Diagnostics&
     if (plane.kind == GhostPlane::Kind::mirror) settings.mirrors.push_back(plane);
   settings.walls.planes = out.planes;
   auto ghosts = std::make_shared<GhostParticles>(out.planes);
-  neighbours.set_ghosts(ghosts);
+  neighbours.add_ghosts(ghosts);
   world.passes.add(ghosts);
   out.mirrors = ghosts->make_mirrors(acceleration_of_particles(model));
+}
+
+/// Behind those of planes, as they take on what copies of particles have, too.
+void add_wall_ghosts(World& world, Neighbours& neighbours, const GhostsOfScene& ghosts) {
+  std::shared_ptr<GhostParticles> copies;
+  if (!ghosts.planes.empty()) copies = std::make_shared<GhostParticles>(ghosts.planes, ghosts.of_walls);
+  ghosts.of_walls->set_lists(neighbours, copies);
+  neighbours.add_ghosts(ghosts.of_walls);
+  world.passes.add(ghosts.of_walls);
+  if (!copies) return;
+  neighbours.add_ghosts(copies);
+  world.passes.add(copies);
 }
 
 void find_neighbours(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
@@ -110,11 +122,7 @@ void find_neighbours(const Deck& deck, const Model& model, World& world, Diagnos
   if (injections.inlets.empty()) left_out.add("inlets", "no *DEFINE_SPH_INJECTION");
   add_ghosts(deck, model, world, diagnostics, left_out, h, *neighbours, settings, ghosts);
   ghosts.of_walls = build_wall_ghosts(deck, model, settings, world, diagnostics);
-  if (ghosts.of_walls) {
-    ghosts.of_walls->set_lists(*neighbours);
-    neighbours->set_ghosts(ghosts.of_walls);
-    world.passes.add(ghosts.of_walls);
-  }
+  if (ghosts.of_walls) add_wall_ghosts(world, *neighbours, ghosts);
   for (const GhostPlane& plane : settings.mirrors) limits.mirrors.push_back(plane.normal);
   rules = {true, settings.skip_inactive_contact, settings.thickness_from_volume, neighbours->largest_skin()};
 }

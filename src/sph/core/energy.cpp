@@ -95,7 +95,7 @@ class SphEnergy : public Reduction, public EnergyTerm, public Refresh, public Re
     if (p.moving == p.active) return;
     for (Index g = 0; g * lanes < p.active; ++g)
       for (const Index j : neighbours_->listed(g)) {
-        const Index of = j < p.size() ? j : neighbours_->ghosts()->source(j - p.size());
+        const Index of = neighbours_->particle_of(p, j);
         if (of < p.active)
           continue;  // what active particles and ghosts of such, or of nothing, do to each other stays inside
         for (Index i = g * lanes; i < std::min((g + 1) * lanes, p.active); ++i)

@@ -29,11 +29,8 @@ void PairVolumes::pretend(const Array<Real>& volumes) {
   std::copy(volumes.begin(), volumes.end(), fields_[current_]->data());
 }
 
-void PairVolumes::set_ghosts(const World& world, Index count, Real volume) {
-  for (Field<Real>* field : fields_) {
-    Real* const first = field->data() + world.particles.size();
-    std::fill(first, first + count, volume);
-  }
+void PairVolumes::set_ghosts(Index first, Index last, Real volume) {
+  for (Field<Real>* field : fields_) std::fill(field->data() + first, field->data() + last, volume);
 }
 
 // The halo, too: its density does not change, so nobody works on it in between.

@@ -22,8 +22,8 @@ class PairVolumes : public Material, public Refresh, public Restartable {
   const Real* current() const { return fields_[current_]->data(); }
   /// While a state is loaded, until `loaded`: as if those of the first particles were these.
   void pretend(const Array<Real>& volumes);
-  /// Of `count` ghosts behind all particles, at any time. [L3]
-  void set_ghosts(const World& world, Index count, Real volume);
+  /// Of the ghosts [first, last), at any time. [L3]
+  void set_ghosts(Index first, Index last, Real volume);
 
   void block(World& world, const Clock&, Index begin, Index end) override;
   void finish(World&, const Clock&) override {

@@ -82,8 +82,6 @@ void check_ghosts(const CourantWallSupport& c, const Deck& deck, const Model& mo
   refuse(s.mixing_length.most > 0 || deck.last<CourantTurbulence>() != nullptr, "with a model of turbulence");
   refuse(c.cf > 0 || c.law != 0, "with friction (CF, LAW)");
   refuse(deck.last<CourantWallBelt>() != nullptr, "with *COURANT_WALL_BELT");
-  refuse(deck.last<BoundarySphSymmetryPlane>() != nullptr || deck.last<BoundarySphPeriodic>() != nullptr,
-         "beside symmetry or periodic planes");
   refuse(!parts_of_several_materials(model).empty(), "where SPH parts differ in MID or EOSID");
 }
 

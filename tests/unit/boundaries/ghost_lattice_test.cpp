@@ -44,15 +44,21 @@ class Tank {
       moves_[static_cast<std::size_t>(s)] = 1, world_.segments.part[s] = lines.front();
     return *this;
   }
+  /// The scene ends at these planes.
+  Tank& between(std::vector<GhostPlane> planes) {
+    planes_ = std::move(planes);
+    return *this;
+  }
   LaidGhosts lay() const {
     return lay_wall_ghosts(world_, segments_, moves_,
-                           {2, world_.particles.x.vec(0), dx, reach, Vec(0, 1, 0)});
+                           {2, world_.particles.x.vec(0), dx, reach, Vec(0, 1, 0), planes_});
   }
 
  private:
   World world_;
   std::vector<Index> segments_;
   std::vector<char> moves_;
+  std::vector<GhostPlane> planes_;
 };
 
 Vec at(Real x, Real y) {
@@ -82,6 +88,34 @@ TEST(GhostLattice, GoesOnBehindTheWallsOfAnOpenTankAndRoundItsCorners) {
     EXPECT_NEAR(g.x[0], 0.05 + along_x * dx, 1e-9);
     EXPECT_NEAR(g.x[1], 0.05 + along_y * dx, 1e-9);
   }
+}
+
+// The whole scene has a corner at the plane, whose ghosts belong to a shell and to the copy of one.
+TEST(GhostLattice, OfHalfASceneIsHalfOfThatOfTheWhole) {
+  const Line left{at(0.5, 0), at(-0.5, 1)}, right{at(0.5, 0), at(1.5, 1)};
+  const auto wedge = [](Real low, Real high) {
+    std::vector<std::pair<Vec, Vec>> blocks;
+    for (Real x = low; x < high - 1e-9; x += dx) {
+      const Real deep = std::abs(x + dx / 2 - 0.5) + dx / 2;
+      blocks.push_back({at(x, std::round(deep / dx) * dx), at(x + dx, 0.8)});
+    }
+    return blocks;
+  };
+  const GhostPlane mirror{GhostPlane::Kind::mirror, at(0.5, 0), at(1, 0), 0};
+  const LaidGhosts whole = Tank({left, right}, wedge(-0.2, 1.2)).lay();
+  const LaidGhosts half = Tank({right}, wedge(0.5, 1.2)).between({mirror}).lay();
+  EXPECT_GT(half.ghosts.size(), 30U);
+  EXPECT_EQ(2 * half.ghosts.size(), whole.ghosts.size());
+  for (const WallGhost& g : half.ghosts) EXPECT_EQ(within(whole, g.x, g.x), 1);
+  // shells of the other half do no harm
+  EXPECT_EQ(Tank({left, right}, wedge(0.5, 1.2)).between({mirror}).lay().ghosts.size(), half.ghosts.size());
+}
+
+TEST(GhostLattice, BetweenPeriodicPlanesHasNoEnds) {
+  const GhostPlane periodic{GhostPlane::Kind::periodic, at(0, 0), at(1, 0), 1};
+  const LaidGhosts laid = Tank({{at(0, 0), at(1, 0)}}, {{at(0, 0), at(1, 0.6)}}).between({periodic}).lay();
+  EXPECT_EQ(laid.ghosts.size(), 10U * 4);
+  EXPECT_TRUE(laid.dry.empty());
 }
 
 TEST(GhostLattice, LeavesNoRoomInAPlateThatIsWetOnBothSides) {

@@ -187,6 +187,93 @@ TEST(WallGhosts, GiveTheSameBitsOnAnyThreadsAndAfterARestart) {
   test::expect_same_bits(deck("carried_box", {{"n", "8"}, {"omega", "3"}, {"a", "2"}}), 60, 25);
 }
 
+/// With a card before the end.
+std::string with_card(std::string text, const std::string& card) {
+  const std::size_t end = text.rfind("*END");
+  text.insert(end == std::string::npos ? text.size() : end, card);
+  return text;
+}
+
+// Half of a symmetric scene beside a symmetry plane is half of the whole scene: here water that is pushed
+// down into the tip of a wedge, through which the plane goes.
+TEST(WallGhosts, AreCopiedBehindSymmetryPlanes) {
+  const Parameters at{{"n", "12"}, {"endtim", "0.1"}};
+  Parameters half = at;
+  half["left"] = "0";
+  const auto whole = started(deck("wedge_tank", at));
+  const auto part =
+      started(with_card(deck("wedge_tank", half), "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.0,0.0,0.0,1.0,0.0,0.0\n"));
+  using Position = std::pair<long, long>;
+  std::map<Position, Id> of_start;
+  const auto key = [](const Vec& x) { return Position(std::lround(1e6 * x[0]), std::lround(1e6 * x[1])); };
+  const auto stir = [](Simulation& s) {
+    Particles& p = s.world().particles;
+    for (Index i = 0; i < p.size(); ++i) p.v.set(i, Vec(2 * p.x.vec(i)[0], -2 * p.x.vec(i)[1], 0));
+    test::start_ledger(s);
+  };
+  std::map<Id, Vec> start;
+  for (Index i = 0; i < whole->world().particles.size(); ++i)
+    of_start[key(whole->world().particles.x.vec(i))] = whole->world().particles.id[i];
+  std::map<Id, Id> twin;
+  for (Index i = 0; i < part->world().particles.size(); ++i) {
+    const Particles& p = part->world().particles;
+    twin[p.id[i]] = of_start.at(key(p.x.vec(i)));
+    start[p.id[i]] = p.x.vec(i);
+  }
+  EXPECT_EQ(2 * twin.size(), of_start.size());
+  stir(*whole), stir(*part);
+  run(*whole, 0.1), run(*part, 0.1);
+  std::map<Id, Vec> ends;
+  for (Index i = 0; i < whole->world().particles.size(); ++i)
+    ends[whole->world().particles.id[i]] = whole->world().particles.x.vec(i);
+  Real apart = 0, moved = 0;
+  for (Index i = 0; i < part->world().particles.size(); ++i) {
+    const Particles& p = part->world().particles;
+    apart = std::max(apart, (p.x.vec(i) - ends.at(twin.at(p.id[i]))).norm());
+    moved = std::max(moved, (p.x.vec(i) - start.at(p.id[i])).norm());
+  }
+  std::printf("moved by %.2e m, apart by %.2e m, energy %.1e of half, %.1e\n", moved, apart, residual(*part),
+              residual(*whole));
+  EXPECT_GT(moved, 5e-3);
+  EXPECT_LT(apart, 1e-9 * moved);
+  EXPECT_LT(std::abs(residual(*part)), 0.01);
+  test::expect_same_bits(
+      with_card(deck("wedge_tank", half), "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.0,0.0,0.0,1.0,0.0,0.0\n"), 60, 25);
+}
+
+// A box afloat in space, a quarter of it between two symmetry planes.
+TEST(WallGhosts, FloatAQuarterOfABoxInSpace) {
+  const auto s = started(deck("floating_cube", {{"n", "4"}}));
+  const auto& b = s->bodies()->bodies().back();
+  const Real start = b.x[1];
+  Real sum = 0;
+  int samples = 0;
+  while (s->clock().t < 0.5) {
+    s->step(test::do_nothing);
+    if (s->clock().t < 0.25) continue;
+    sum += b.x[1] - start, ++samples;
+  }
+  std::printf("%.2f %% too deep, energy %.1e\n", -100 * sum / samples / 0.08, residual(*s));
+  EXPECT_LT(std::abs(sum / samples), 0.05 * 0.08);
+  EXPECT_LT(std::abs(residual(*s)), 0.01);
+}
+
+// Water at rest on a floor between periodic planes, or sliding along it: nothing shows where the planes are.
+TEST(WallGhosts, GoOnBehindPeriodicPlanes) {
+  for (const char* u : {"0", "0.5"}) {
+    const auto s = started(deck("periodic_floor", {{"u", u}}));
+    const Rest r = rest(*s, 0.1, 0.5, 0.8);
+    const Particles& p = s->world().particles;
+    Real across = 0;
+    for (Index i = 0; i < p.size(); ++i)
+      across = std::max(across, (p.v.vec(i) - Vec(std::stod(u), 0, 0)).norm());
+    std::printf("u %s: rms %.2f %%, speed %.4f m/s, energy %.1e\n", u, 100 * r.rms, across, residual(*s));
+    EXPECT_LT(r.rms, 0.01);
+    EXPECT_LT(across, 0.01);
+    EXPECT_LT(std::abs(residual(*s)), 0.01);
+  }
+}
+
 // The force on the walls of a tank at rest is the weight of the water.
 TEST(WallGhosts, CarryTheWeightOfTheWater) {
   const auto s =

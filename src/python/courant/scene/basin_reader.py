@@ -19,6 +19,7 @@ from .wave_reader import Piston, check_reach, read_waves
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "wall_method", "gravity", "end", "output")
 MOST_MIRRORS = 12  # lines of a shape in the plane
+REACH = 3.6  # spacings: nearly what the kernel reaches
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
 
@@ -235,13 +236,25 @@ class BasinReader(ShapeReader):
 
     def read_method(self, root: Node, basin: Basin) -> None:
         node = self.get(root, "wall_method")
-        # mirrors of many faces take most of the time of a run
-        shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
         asked = self.text(node) if node is not None else "auto"
-        basin.method = asked if asked != "auto" else "mixed" if shaped else "mirrors"
+        if asked != "auto":
+            basin.method = asked
+        elif all(solid.piston is not None or solid.is_thick(REACH * basin.spacing) or self._holds_all(solid, basin) for solid in basin.solids):
+            basin.method = "ghosts"
+        else:  # mirrors of many faces take most of the time of a run
+            shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
+            basin.method = "mixed" if shaped else "mirrors"
         if node is not None:
             if asked not in (*METHODS, "auto"):
                 self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")
+
+    @staticmethod
+    def _holds_all(solid: Solid, basin: Basin) -> bool:
+        """Whether all of the water is within a closed shape, as in a tank: its outside is dry."""
+        low, high = solid.shape.low[:basin.dim], solid.shape.high[:basin.dim]
+        blocks = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
+        blocks += [(shape.low, shape.high) for shape, _ in basin.fills]
+        return solid.closed and basin.box is None and all(np.all(a[:basin.dim] >= low) and np.all(b[:basin.dim] <= high) for a, b in blocks)
 
     def fill(self, basin: Basin) -> None:
         """Lattices of the bodies of water, cells beside each other over all of the scene; water keeps out of what is solid."""

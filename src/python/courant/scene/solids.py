@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .wave_reader import Piston
 
 FREE = ("x", "y", "z", "rx", "ry", "rz")
+MOST_SAMPLES = 2000  # of the faces of a shape
 FIRST_WALL, FIRST_BODY, FIRST_CURVE = 12, 101, 901
 SOLIDS, HELD, BODIES, MIRRORS = 2, 3, 4, 5  # sets of parts: all, those that do not move freely, those that do, those that mirror
 _HELD_BY = {"": 0, "x": 1, "y": 2, "z": 3, "xy": 4, "yz": 5, "xz": 6, "xyz": 7}  # CON1 and CON2 of *MAT_RIGID
@@ -40,6 +41,26 @@ class Solid:
     def mirrors(self, method: str) -> bool:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
         return method in ("mirrors", "ghosts") or (method == "mixed" and self.free)
+
+    def is_thick(self, reach: float) -> bool:
+        """Whether it is ground, or closed and all but a tenth of its surface has at least `reach` [L] of it behind: the water on one side does not act on that on the other."""
+        if self.shape.ground:
+            return True
+        if not self.closed:
+            return False
+        points = self.shape.points[self.shape.faces]
+        if self.shape.dim == 2:
+            along = points[:, 1] - points[:, 0]
+            normals = np.column_stack([along[:, 1], -along[:, 0], np.zeros(len(along))])
+        else:
+            normals = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+        areas = np.linalg.norm(normals, axis=1)
+        some = np.unique(np.searchsorted(np.cumsum(areas), areas.sum() * (np.arange(MOST_SAMPLES) + 0.5) / MOST_SAMPLES))  # those with most of the area
+        some = some[areas[some] > 0]
+        thick = np.ones(len(some), dtype=bool)
+        for depth in (0.25, 0.5, 0.75, 1.0):
+            thick &= self.shape.contains(points[some].mean(axis=1) - depth * reach * normals[some] / areas[some, None])
+        return float(areas[some][thick].sum()) >= 0.9 * float(areas[some].sum())
 
 
 _RIGID = """\
@@ -142,7 +163,8 @@ def part_set(number: int, parts: list[int]) -> str:
 
 
 def number_parts(solids: list[Solid]) -> None:
-    wall, body = FIRST_WALL, FIRST_BODY
+    wall, body = MOST_SAMPLES = 2000  # of the faces of a shape
+FIRST_WALL, FIRST_BODY
     for solid in solids:
         if solid.free:
             solid.part, body = body, body + 1

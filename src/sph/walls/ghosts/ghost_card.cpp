@@ -66,6 +66,7 @@ std::shared_ptr<WallGhosts> build_wall_ghosts(const Deck& deck, const Model& mod
   lattice.origin = s.dim == 2 ? Vec(x[0], x[1], 0) : x;
   lattice.spacing = std::pow(p.m[first] / p.rho[first], 1.0 / s.dim);
   lattice.reach = kernel_support(s.kernel) * p.h[first];
+  lattice.planes = s.walls.planes;
   lattice.up = upwards(model, s.loads, x, p.part[first]);
   if (s.dim == 2) lattice.up[2] = 0;
   const LaidGhosts laid = lay_wall_ghosts(world, segments, moves, lattice);

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "sph/walls/ghosts/wall_facet.hpp"
+#include "sph/walls/ghosts/shell_facets.hpp"
 
 namespace courant {
 
@@ -19,7 +19,6 @@ constexpr Real on_wall = 0.02;          ///< of a spacing: points so near a shel
 constexpr Real widened = 0.25;          ///< of a spacing: shells block so far beyond their edges
 constexpr Real most_in_front = 0.49;    ///< of a spacing: water keeps half a spacing off
 constexpr Real level_tolerance = 1e-6;  ///< of a spacing
-constexpr Real right_behind = 1e-3;     ///< of a spacing: a foot so far past an edge is on it
 constexpr Real cone_cosine = 0.5;       ///< water in sight of a shell is before it within 60 degrees
 constexpr Real least_thickness = 0.9;   ///< of the reach: water acts through thinner walls
 
@@ -29,9 +28,12 @@ class Layer {
  public:
   Layer(const World& world, const std::vector<Index>& segments, const std::vector<char>& moves,
         const GhostLattice& lattice)
-      : world_(world), moves_(moves), to_(lattice), dx_(lattice.spacing) {
-    for (const Index s : segments) add_facets(s);
-  }
+      : world_(world),
+        moves_(moves),
+        to_(lattice),
+        dx_(lattice.spacing),
+        facets_(facets_of_shells(world, segments, lattice)),
+        closed_(closed_parts(facets_, lattice)) {}
 
   LaidGhosts lay() {
     LaidGhosts out;
@@ -39,7 +41,6 @@ class Layer {
       out.too_large = !facets_.empty();
       return out;
     }
-    find_closed_parts();
     // held walls, then those that move: they see other water
     std::vector<std::int8_t> taken(state_.size(), 0);
     for (const bool moving : {false, true}) {
@@ -48,10 +49,13 @@ class Layer {
         if (is_moving(f) == moving) mine.push_back(&f);
       if (mine.empty()) continue;
       flood(moving);
-      for (Facet* f : mine) look_at_sides(*f);
+      for (Facet* f : mine)
+        if (f->copy_of < 0) look_at_sides(*f);
+      for (Facet* f : mine)
+        if (f->copy_of >= 0) std::copy_n(facets_[static_cast<std::size_t>(f->copy_of)].wet, 2, f->wet);
       report(mine, out);
       for (const Facet* f : mine)
-        if (moving && f->used() && !closed_.at(f->part)) out.open.push_back(f->segment);
+        if (moving && f->copy_of < 0 && f->used() && !closed_.at(f->part)) out.open.push_back(f->segment);
       fill(mine, taken, out);
     }
     return out;
@@ -60,59 +64,13 @@ class Layer {
  private:
   bool is_moving(const Facet& f) const { return moves_[static_cast<std::size_t>(f.segment)] != 0; }
   Vec flat(const Vec& x) const { return to_.dim == 2 ? Vec(x[0], x[1], 0) : x; }
-
-  void add_facets(Index segment) {
-    const auto nodes = world_.segments.nodes(segment);
-    std::array<Vec, 4> x;
-    for (std::size_t e = 0; e < 4; ++e) x[e] = flat(world_.nodes.x.vec(nodes[e]));
-    Facet f;
-    f.segment = segment;
-    f.is_line = to_.dim == 2;
-    f.part = world_.segments.part[segment];
-    if (to_.dim == 2) {  // the line that the shell has in the plane of the flow
-      Vec a = x[0], b = x[0];
-      for (const Vec& p : x)
-        if ((p - a).norm() > (b - a).norm()) b = p;
-      if (!((b - a).norm() > right_behind * dx_)) return;  // it lies in the plane
-      f.x = {a, b, b};
-      f.n = Vec(a[1] - b[1], b[0] - a[0], 0).normalized();
-      facets_.push_back(f);
-      return;
-    }
-    for (const auto& [second, third] : {std::pair{1, 2}, {2, 3}}) {
-      f.x = {x[0], x[static_cast<std::size_t>(second)], x[static_cast<std::size_t>(third)]};
-      const Vec area = (f.x[1] - f.x[0]).cross(f.x[2] - f.x[0]);
-      if (!(area.norm() > 1e-12 * dx_ * dx_)) continue;
-      f.n = area.normalized();
-      facets_.push_back(f);
-    }
-  }
-
-  /// Parts all of whose edges belong to two facets: they hold something, wherever they go.
-  void find_closed_parts() {
-    using Corner = std::array<std::int64_t, 3>;
-    const auto corner = [&](const Vec& x) {
-      Corner c{};
-      for (std::size_t k = 0; k < 3; ++k) c[k] = std::llround(x[static_cast<Index>(k)] / (0.01 * dx_));
-      return c;
-    };
-    std::map<Index, std::map<std::pair<Corner, Corner>, int>> edges;
-    for (const Facet& f : facets_) {
-      auto& of = edges[f.part];
-      if (to_.dim == 2) {
-        for (const Vec& x : {f.x[0], f.x[1]}) ++of[{corner(x), corner(x)}];
-        continue;
-      }
-      for (std::size_t e = 0; e < 3; ++e) {
-        const Corner a = corner(f.x[e]), b = corner(f.x[(e + 1) % 3]);
-        ++of[{std::min(a, b), std::max(a, b)}];
-      }
-    }
-    for (const auto& [part, of] : edges) {
-      bool closed = true;
-      for (const auto& [edge, count] : of) closed = closed && count % 2 == 0;
-      closed_[part] = closed;
-    }
+  /// Whether copies of ghosts fill x: of what is on periodic planes one has ghosts, on mirrors they would be
+  /// there twice.
+  bool is_of_copies(const Vec& x) const {
+    return std::any_of(to_.planes.begin(), to_.planes.end(), [&](const GhostPlane& plane) {
+      const Real d = depth(plane, x), on = on_wall * dx_;
+      return plane.kind == GhostPlane::Kind::mirror ? d < on : d < -on || d > plane.period - on;
+    });
   }
 
   /// The lattice around shells and water. False where it would be too large.
@@ -121,7 +79,8 @@ class Layer {
     low_ = high_ = facets_[0].x[0];
     const auto take = [&](const Vec& x) { low_ = low_.cwiseMin(x), high_ = high_.cwiseMax(x); };
     for (const Facet& f : facets_)
-      for (const Vec& x : f.x) take(x);
+      for (const Vec& x : f.x)
+        if (f.copy_of < 0) take(x);
     level_ = -1e300;
     for (Index i = 0; i < p.size(); ++i) {
       if (p.state[i] == particle_waiting || p.state[i] == particle_deactivated) continue;
@@ -234,7 +193,7 @@ class Layer {
       if (x[k] < low_[k] - level_tolerance * dx_ && to_.up[k] > -0.5) return false;
       if (x[k] > high_[k] + level_tolerance * dx_ && to_.up[k] < 0.5) return false;
     }
-    return true;
+    return !is_beyond(to_.planes, x, level_tolerance * dx_);
   }
 
   void flood(bool moving) {
@@ -280,7 +239,7 @@ class Layer {
   /// Whether no facet is between a particle and the lattice point next to it. Particles of the lattice
   /// are the point.
   bool can_see(const Vec& from, const Vec& to) const {
-    if ((to - from).norm() < right_behind * dx_) return true;
+    if ((to - from).norm() < facet_tolerance * dx_) return true;
     bool is = true;
     for_facets_near(0.5 * (from + to), [&](const Facet& f) { is = is && !f.crosses(from, to); });
     return is;
@@ -358,6 +317,7 @@ class Layer {
       if (to.empty() || to.back() != segment) to.push_back(segment);
     };
     for (const Facet* f : mine) {
+      if (f->copy_of >= 0) continue;
       if (f->wet[0] && f->wet[1]) note(out.wet_on_both_sides, f->segment);
       if (!f->wet[0] && !f->wet[1]) note(out.dry, f->segment);
     }
@@ -390,6 +350,7 @@ class Layer {
         const std::size_t i = index(c);
         if (taken[i] != 0 || (state_[i] & (wet | occupied)) == (wet | occupied)) return;
         const Vec x = point_of(c);
+        if (is_of_copies(x)) return;
         const Real height = n.dot(x - f->x[0]);
         if (std::abs(height) > ((state_[i] & wet) != 0 ? most_in_front * dx_ : to_.reach)) return;
         const Vec foot = f->nearest(x);
@@ -397,11 +358,11 @@ class Layer {
         if (distance > to_.reach) return;
         Candidate& known = near[i];
         if (height > -on_wall * dx_ && distance < known.distance_behind &&
-            distance - std::abs(height) < right_behind * dx_)
+            distance - std::abs(height) < facet_tolerance * dx_)
           known.distance_behind = distance, known.right_behind = f->segment;
-        if (distance < known.distance - right_behind * dx_)
+        if (distance < known.distance - facet_tolerance * dx_)
           known.distance = distance, known.foot = foot, known.normals = {n}, known.segment = f->segment;
-        else if (distance < known.distance + right_behind * dx_)
+        else if (distance < known.distance + facet_tolerance * dx_)
           known.normals.push_back(n);
       });
     }
@@ -420,7 +381,7 @@ class Layer {
       out.ghosts.push_back({x, right ? c.right_behind : c.segment});
     }
     for (const Facet* f : mine)
-      if (f->used() && water_behind(*f)) out.thin.push_back(f->segment);
+      if (f->copy_of < 0 && f->used() && water_behind(*f)) out.thin.push_back(f->segment);
   }
 
   /// Whether water begins again within the reach behind a facet: all points of the lattice around one there
@@ -441,7 +402,7 @@ class Layer {
   const GhostLattice& to_;
   Real dx_, level_ = 0;
   std::vector<Facet> facets_;
-  std::map<Index, bool> closed_;
+  std::map<Index, bool> closed_;  ///< by part
   Vec low_ = Vec::Zero(), high_ = Vec::Zero();
   std::array<std::int64_t, 3> first_{0, 0, 0}, count_{1, 1, 1}, stride_{1, 1, 1};
   std::vector<std::uint8_t> state_;

@@ -2,7 +2,7 @@
 // Where fixed ghost particles are behind the shells that hold water.
 #include <vector>
 
-#include "state/world.hpp"
+#include "search/ghosts.hpp"
 
 namespace courant {
 
@@ -19,6 +19,7 @@ struct GhostLattice {
   Real spacing = 0;          ///< [L]
   Real reach = 0;            ///< of the kernel: ghosts farther behind a wall than this act on nothing [L]
   Vec up = Vec::Zero();      ///< against gravity, of length 1; 0 without gravity
+  std::vector<GhostPlane> planes{};  ///< of symmetry or period: the scene ends there
 };
 
 struct LaidGhosts {
@@ -38,6 +39,7 @@ struct LaidGhosts {
 /// climb over the rim of a tank. What it does not reach is dry. A ghost is a dry point within `reach` of a
 /// shell whose other side is wet: right behind it, or behind all shells that meet at the nearest point; or a
 /// point less than half a spacing before a shell where no particle is, as water keeps half a spacing off.
+/// Shells go on behind planes as their copies do, without ghosts: these are copied, too.
 /// For shells that are held, parts that move and are not closed (gates, pistons) are no obstacle to the
 /// water: it will be where they are.
 LaidGhosts lay_wall_ghosts(const World& world, const std::vector<Index>& segments,

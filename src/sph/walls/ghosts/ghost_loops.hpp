@@ -12,7 +12,7 @@ struct GhostArrays {
   const Real* v[3];
   const Real* V;    ///< m/rho, see PairVolumes
   const Real* p;    ///< pressure as pair forces take it
-  const Real* rho;  ///< of particles alone
+  const Real* rho;  ///< of particles and their copies alone
   const Real* tau[6];
   Real* drhodt;  ///< of particles alone
   Real h;
@@ -21,7 +21,8 @@ struct GhostArrays {
   // of ghost k = entity first + k alone, at index k
   Index first;
   const Real* g[3];   ///< acceleration that rests on the wall there: of body loads less that of the wall
-  Real* squeeze;      ///< what it hands on of its own rate, without the kernel's constant [L^dim/T]
+  Real* squeeze;      ///< what it (or its copy behind a plane) hands on of its own rate, without the kernel's
+                      ///< constant [L^dim/T]
   Real* volume_rate;  ///< how fast the water that it is for is compressed, > 0 [L^dim/T]
   Real* pressure;
   Real* excess;    ///< of the pressure, over the mean of that of the particles

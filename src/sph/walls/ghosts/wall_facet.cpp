@@ -5,6 +5,17 @@
 
 namespace courant {
 
+WallFacet WallFacet::copied(const GhostPlane& plane, int side) const {
+  WallFacet copy = *this;
+  if (plane.kind == GhostPlane::Kind::mirror) {
+    for (Vec& p : copy.x) p -= 2 * depth(plane, p) * plane.normal;
+    copy.n -= 2 * n.dot(plane.normal) * plane.normal;
+  } else {
+    for (Vec& p : copy.x) p += (side == 0 ? 1 : -1) * plane.period * plane.normal;
+  }
+  return copy;
+}
+
 Real WallFacet::past_edges(const Vec& q) const {
   if (is_line) {
     const Vec along = (x[1] - x[0]).normalized();

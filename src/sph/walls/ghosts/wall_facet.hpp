@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/real.hpp"
+#include "search/ghosts.hpp"
 
 namespace courant {
 
@@ -15,7 +15,11 @@ struct WallFacet {
   bool is_line = false;
   Index segment = 0;
   Index part = 0;
+  Index copy_of = -1;         ///< the facet of which it is a copy behind a plane; -1: it is none
   bool wet[2]{false, false};  ///< whether water can reach its side along n, and the other one
+
+  /// What the flow that is continued behind a plane has there; `side` 1 of periodic planes: before it.
+  WallFacet copied(const GhostPlane& plane, int side) const;
 
   bool used() const { return wet[0] != wet[1]; }
   /// 1 where n points out of the water, -1 else.

@@ -163,16 +163,15 @@ void WallGhosts::build(World& world, Real support, Real skin) {
       if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all()) found.push_back(k);
     }
   });
-  p.fields.make_room_for_ghosts(count());
+  make_room(world);
   set_positions(world, built_);
 }
 
 void WallGhosts::set_positions(World& world, const std::vector<PartFrame::Pose>& poses) const {
   Particles& p = world.particles;
-  const Index first = p.size();
   for_each(count(), [&](Index k) {
     const Ghost& one = ghost(k);
-    p.x.set(first + k, poses[static_cast<std::size_t>(one.frame)].from(one.x));
+    p.x.set(first() + k, poses[static_cast<std::size_t>(one.frame)].from(one.x));
   });
 }
 
@@ -181,15 +180,15 @@ void WallGhosts::sort(World& world, std::span<const Index> order) {
   for (std::size_t k = 0; k < order.size(); ++k) sorted[k] = here_[static_cast<std::size_t>(order[k])];
   here_.swap(sorted);
   Particles& p = world.particles;
-  const Index first = p.size();
+  const Index last = first() + count();
   for (const auto& field : p.fields.all()) {  // what none of them has is 0
     auto* real = field->info().exchange ? dynamic_cast<Field<Real>*>(field.get()) : nullptr;
     if (real == nullptr) continue;
     for (int c = 0; c < real->info().components; ++c)
-      std::fill(real->data(c) + first, real->data(c) + first + count(), Real(0));
+      std::fill(real->data(c) + first(), real->data(c) + last, Real(0));
   }
-  std::fill(p.h.data() + first, p.h.data() + first + count(), h_);
-  volumes_->set_ghosts(world, count(), volume_);
+  std::fill(p.h.data() + first(), p.h.data() + last, h_);
+  volumes_->set_ghosts(first(), last, volume_);
   set_positions(world, built_);
 }
 
@@ -211,18 +210,19 @@ void WallGhosts::fill_lists(Index n, std::vector<List>& lists, const Add& add) {
 }
 
 void WallGhosts::relist(World& world) {
-  const Index n = count(), first = world.particles.size();
+  const Index n = count();
   fill_lists(n, lists_, [&](Index from, Index size, std::vector<Index>& entries) {
-    neighbours_->add_active_near(world, first + from, size, entries);
+    neighbours_->add_active_near(world, first() + from, size, entries);
   });
   fill_lists(world.particles.active, seen_, [&](Index from, Index, std::vector<Index>& entries) {
     for (const Index j : neighbours_->listed(from / Neighbours::lanes))
-      if (j >= first) entries.push_back(j);
+      if (j >= first()) entries.push_back(j);
   });
   for (auto* arrays : {rise_, force_})
     for (int k = 0; k < 3; ++k) arrays[k].assign(static_cast<std::size_t>(n), Real(0));
-  for (auto* array : {&value_, &excess_, &excess_before_, &squeeze_, &volume_rate_})
+  for (auto* array : {&value_, &excess_, &excess_before_, &volume_rate_})
     array->assign(static_cast<std::size_t>(n), Real(0));
+  squeeze_.assign(static_cast<std::size_t>(n + (copies_ ? copies_->count() : 0)), Real(0));
 }
 
 void WallGhosts::keep(Archive& archive) {
@@ -274,7 +274,7 @@ GhostArrays WallGhosts::arrays(World& world) {
   GhostArrays a{};
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
   a.V = volumes_->current(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
-  a.h = h_, a.half_step = half_step_, a.kernel = &any_kernel(kernel_), a.first = p.size();
+  a.h = h_, a.half_step = half_step_, a.kernel = &any_kernel(kernel_), a.first = first();
   a.squeeze = squeeze_.data(), a.volume_rate = volume_rate_.data();
   return a;
 }
@@ -284,24 +284,22 @@ void WallGhosts::set_velocities(World& world) const {
   std::vector<WallMotion> motion(frames_.size());
   for (std::size_t f = 1; f < frames_.size(); ++f) motion[f] = frames_[f].motion(world);
   Particles& p = world.particles;
-  const Index first = p.size();
   for_each(count(), [&](Index k) {
     const auto f = static_cast<std::size_t>(ghost(k).frame);
     if (f == 0) return;
-    const Vec r = p.x.vec(first + k) - motion[f].x0;
-    p.v.set(first + k, motion[f].v + motion[f].omega.cross(r - half_step_ * motion[f].omega.cross(r)));
+    const Vec r = p.x.vec(first() + k) - motion[f].x0;
+    p.v.set(first() + k, motion[f].v + motion[f].omega.cross(r - half_step_ * motion[f].omega.cross(r)));
   });
 }
 
 void WallGhosts::set_pressures(World& world) {
   Particles& p = world.particles;
-  const Index first = p.size();
   std::vector<WallMotion> motion(frames_.size());
   for (std::size_t f = 1; f < frames_.size(); ++f)
     if (driven_[f]) motion[f] = frames_[f].motion(world);
   for_each(count(), [&](Index k) {
     const auto f = static_cast<std::size_t>(ghost(k).frame);
-    const Vec x = p.x.vec(first + k);
+    const Vec x = p.x.vec(first() + k);
     Vec g = loads_.uniform() ? loads_now_.everywhere() : loads_now_(x, part_);
     if (driven_[f]) {
       const Vec r = x - motion[f].x0;
@@ -316,7 +314,7 @@ void WallGhosts::set_pressures(World& world) {
   for (int k = 0; stress_ != nullptr && k < 6; ++k) a.tau[k] = stress_->data(k);
   a.p = pressure_.data(), a.pressure = value_.data(), a.excess = excess_.data();
   run(pressure_loop_, a);
-  for_each(count(), [&](Index k) { pressure_[first + k] = value_[k]; });
+  for_each(count(), [&](Index k) { pressure_[first() + k] = value_[k]; });
 }
 
 void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields) {
@@ -324,7 +322,6 @@ void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields
   const auto asks = [&](const FieldBase* field) {
     return field != nullptr && std::find(fields.begin(), fields.end(), field) != fields.end();
   };
-  const Index first = p.size();
   if (asks(&p.x) && any_moves()) {
     std::vector<PartFrame::Pose> poses;
     find_poses(world, poses);
@@ -332,13 +329,15 @@ void WallGhosts::exchange(World& world, std::span<const FieldBase* const> fields
   }
   if (asks(potential_))
     for_each(count(), [&](Index k) {
-      const Vec x = p.x.vec(first + k);
-      (*potential_)[first + k] =
+      const Vec x = p.x.vec(first() + k);
+      (*potential_)[first() + k] =
           loads_.uniform() ? -loads_now_.everywhere().dot(x) : loads_now_.potential(x, part_);
     });
   if (asks(&p.v)) {
     if (any_moves()) set_velocities(world);
     run(rate_loop_, arrays(world));
+    for (Index k = 0; copies_ && k < copies_->count(); ++k)
+      squeeze_[count() + k] = squeeze_[copies_->source(k) - first()];
   }
   if (asks(&pressure_)) set_pressures(world);
 }
@@ -370,7 +369,6 @@ void WallGhosts::add_forces(World& world, bool moving) const {
     Vec middle, force = Vec::Zero(), moment = Vec::Zero();
   };
   std::map<Index, Load> loads;
-  const Index first = world.particles.size();
   const auto middle = [&](Index segment) {
     const auto nodes = world.segments.nodes(segment);
     const int n = nodes[2] == nodes[3] ? 3 : 4;
@@ -386,7 +384,7 @@ void WallGhosts::add_forces(World& world, bool moving) const {
     Load& load = known->second;
     if (is_new) load.middle = middle(one.segment);
     load.force += F;
-    load.moment += in_plane(world.particles.x.vec(first + k) - load.middle, dim_).cross(F);
+    load.moment += in_plane(world.particles.x.vec(first() + k) - load.middle, dim_).cross(F);
   }
   for (const auto& [segment, load] : loads) {
     const auto nodes = world.segments.nodes(segment);
@@ -434,9 +432,7 @@ void WallGhosts::take_back_forces(World& world) {
 void WallGhosts::report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) {
   for (Index k = 0; k < count(); ++k) {
     const Ghost& one = ghost(k);
-    take({.segment = one.segment,
-          .point = world.particles.x.vec(world.particles.size() + k),
-          .force = force(k)});
+    take({.segment = one.segment, .point = world.particles.x.vec(first() + k), .force = force(k)});
   }
 }
 
@@ -450,6 +446,7 @@ class WallGhostForce : public Force {
   void declare(const World& world, Accesses& a) const override {
     const Segments& s = world.segments;
     a.reads(ghosts_->pressure(), Reach::others);
+    if (ghosts_->has_copies()) a.reads(world.particles.rho, Reach::others);  // of copies of particles
     a.in_start().updates(*s.contact_force).updates(world.nodes.f);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
     a.in_finish().updates(*s.contact_force).updates(world.nodes.f).reads(world.nodes.x);

@@ -50,8 +50,10 @@ class WallGhosts : public Ghosts,
   /// `laid`: where the scene starts. `driven`, by part: motions are prescribed.
   WallGhosts(const SphSettings& s, World& world, const std::vector<WallGhost>& laid,
              const std::vector<char>& driven);
-  /// Before the first refresh.
-  void set_lists(const Neighbours& neighbours) { neighbours_ = &neighbours; }
+  /// Before the first refresh. `copies`: of these ghosts, behind planes; null: there are no planes.
+  void set_lists(const Neighbours& neighbours, std::shared_ptr<const GhostParticles> copies) {
+    neighbours_ = &neighbours, copies_ = std::move(copies);
+  }
   void set_volumes(std::shared_ptr<PairVolumes> volumes) { volumes_ = std::move(volumes); }
 
   std::string name() const override { return "wall ghosts"; }
@@ -75,6 +77,7 @@ class WallGhosts : public Ghosts,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
+  bool has_copies() const { return copies_ != nullptr; }
   bool any_moves() const { return frames_.size() > 1; }
   /// Pressure of particles as pair forces take it.
   const Field<Real>& pressure() const { return pressure_; }
@@ -125,6 +128,7 @@ class WallGhosts : public Ghosts,
   Field<Real>* stress_ = nullptr;
   GhostLoop rate_loop_, squeeze_loop_, pressure_loop_;
   const Neighbours* neighbours_ = nullptr;  ///< which hold the ghosts
+  std::shared_ptr<const GhostParticles> copies_;
   std::shared_ptr<PairVolumes> volumes_;
   std::vector<Ghost> all_;
   std::vector<PartFrame> frames_;            ///< the first one is of what is held, and stays where it is
