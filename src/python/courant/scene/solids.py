@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .wave_reader import Piston
 
 FREE = ("x", "y", "z", "rx", "ry", "rz")
-MOST_SAMPLES = 2000  # of the faces of a shape
+MOST_SAMPLES = 300  # of the faces of a shape
 FIRST_WALL, FIRST_BODY, FIRST_CURVE = 12, 101, 901
 SOLIDS, HELD, BODIES, MIRRORS = 2, 3, 4, 5  # sets of parts: all, those that do not move freely, those that do, those that mirror
 _HELD_BY = {"": 0, "x": 1, "y": 2, "z": 3, "xy": 4, "yz": 5, "xz": 6, "xyz": 7}  # CON1 and CON2 of *MAT_RIGID
@@ -163,8 +163,7 @@ def part_set(number: int, parts: list[int]) -> str:
 
 
 def number_parts(solids: list[Solid]) -> None:
-    wall, body = MOST_SAMPLES = 2000  # of the faces of a shape
-FIRST_WALL, FIRST_BODY
+    wall, body = FIRST_WALL, FIRST_BODY
     for solid in solids:
         if solid.free:
             solid.part, body = body, body + 1
