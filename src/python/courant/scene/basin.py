@@ -130,6 +130,7 @@ class Basin:
     box_motion: dict[str, str | np.ndarray] = field(default_factory=dict)  # displacements of the box by axis, formulas of TIME [L]
     fills: list[tuple[Any, Any]] = field(default_factory=list)  # shapes that are filled with water, and their entries
     solids: list[Solid] = field(default_factory=list)
+    thin: str = ""  # why walls have no ghost particles
     method: str = "contact"  # how walls act on the water: by contact, as mirrors, by ghost particles, or mixed: box and bodies as mirrors, other walls by contact
 
     @property

@@ -239,11 +239,12 @@ class BasinReader(ShapeReader):
         asked = self.text(node) if node is not None else "auto"
         if asked != "auto":
             basin.method = asked
-        elif all(solid.piston is not None or solid.is_thick(REACH * basin.spacing) or self._holds_all(solid, basin) for solid in basin.solids):
+        elif not (thin := [solid for solid in basin.solids if solid.piston is None and not solid.is_thick(REACH * basin.spacing) and not self._holds_all(solid, basin)]):
             basin.method = "ghosts"
         else:  # mirrors of many faces take most of the time of a run
             shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
             basin.method = "mixed" if shaped else "mirrors"
+            basin.thin = f"'{thin[0].shape.name}' is thin, so that ghost particles have no room behind it; "
         if node is not None:
             if asked not in (*METHODS, "auto"):
                 self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")

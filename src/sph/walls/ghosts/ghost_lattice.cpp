@@ -247,28 +247,30 @@ class Layer {
 
   // ---- sides of shells ----
 
-  /// Which sides of a shell water can reach: it does where a wet point of the lattice is within two
-  /// spacings of it, straight in front. What is farther off may be around a corner.
+  /// Which sides of a shell water can reach: it does where a wet point of the lattice is within two spacings
+  /// of it, straight in front; what is farther off may be around a corner. Shells shorter than the spacing
+  /// may have no point of the lattice over them: then within a cone about the normal.
   void look_at_sides(Facet& f) {
     f.wet[0] = f.wet[1] = false;
-    const Real far = 1.75 * dx_;
-    for (const Vec& x : f.samples(dx_)) {
-      if (f.wet[0] && f.wet[1]) return;
-      const Vec margin = Vec::Constant(far);
-      for_each_cell(cells_between(x - margin, x + margin), [&](const Cell& c) {
-        if ((state_[index(c)] & wet) == 0) return;
-        const Vec d = point_of(c) - x;
-        const Real height = f.n.dot(d);
-        const bool front = height > 0;
-        if (f.wet[front ? 0 : 1] || !(std::abs(height) > on_wall * dx_) || d.norm() > far) return;
-        // along the normal, so that no other shell can be met but one that is nearer; of shells shorter than
-        // the spacing, which may have no point of the lattice over them, within a cone about it
-        const Vec foot = point_of(c) - height * f.n;
-        const bool straight = f.past_edges(foot) <= 0;
-        if (!straight && !(std::abs(height) > cone_cosine * d.norm())) return;
-        if (!between(f, straight ? foot : x, point_of(c))) f.wet[front ? 0 : 1] = true;
-      });
+    for (const bool straight : {true, false}) {
+      for (const Vec& x : f.samples(dx_)) look_from(f, x, straight);
+      if (f.wet[0] || f.wet[1]) return;
     }
+  }
+  void look_from(Facet& f, const Vec& x, bool straight) {
+    const Real far = 1.75 * dx_;
+    const Vec margin = Vec::Constant(far);
+    for_each_cell(cells_between(x - margin, x + margin), [&](const Cell& c) {
+      if ((state_[index(c)] & wet) == 0) return;
+      const Vec d = point_of(c) - x;
+      const Real height = f.n.dot(d);
+      const std::size_t side = height > 0 ? 0 : 1;
+      if (f.wet[side] || !(std::abs(height) > on_wall * dx_) || d.norm() > far) return;
+      // along the normal no other shell can be met but one that is nearer
+      const Vec foot = point_of(c) - height * f.n;
+      if (straight ? f.past_edges(foot) > 0 : !(std::abs(height) > cone_cosine * d.norm())) return;
+      if (!between(f, straight ? foot : x, point_of(c))) f.wet[side] = true;
+    });
   }
 
   /// Whether another facet is between a foot on facet f and a point over it.
