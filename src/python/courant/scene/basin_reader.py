@@ -239,6 +239,8 @@ class BasinReader(ShapeReader):
         asked = self.text(node) if node is not None else "auto"
         if asked != "auto":
             basin.method = asked
+        elif basin.dim == 2 and not any(solid.is_oblique() or len(solid.shape.faces) > MOST_MIRRORS for solid in basin.solids):
+            basin.method = "mirrors"  # right behind walls along the axes, and calm where water strikes them
         elif not (thin := [solid for solid in basin.solids if solid.piston is None and not solid.is_thick(REACH * basin.spacing) and not self._holds_all(solid, basin)]):
             basin.method = "ghosts"
         else:  # mirrors of many faces take most of the time of a run

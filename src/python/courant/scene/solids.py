@@ -42,6 +42,12 @@ class Solid:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
         return method in ("mirrors", "ghosts") or (method == "mixed" and self.free)
 
+    def is_oblique(self) -> bool:
+        """Whether a face of it is along no axis at the start."""
+        points = self.shape.points[self.shape.faces]
+        extents = np.ptp(points, axis=1)[:, :self.shape.dim]
+        return bool(np.any(np.min(extents, axis=1) > 1e-6 * np.max(extents)))
+
     def is_thick(self, reach: float) -> bool:
         """Whether it is ground, or closed and all but a tenth of its surface has at least `reach` [L] of it behind: the water on one side does not act on that on the other."""
         if self.shape.ground:
