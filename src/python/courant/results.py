@@ -434,6 +434,16 @@ class Results:
         names = [group.partition("/")[2] for group in self.histories.groups if group.startswith("gauges/")]
         return Named("gauge", {name: self.histories.table(f"gauges/{name}") for name in names})
 
+    def track(self, point: Sequence[float]) -> Table:
+        """Motion over time of the node with a history that is nearest to a point at the start, in the plane of two components [L]: displacement.x,
+        velocity.x, acceleration.x, position.x and so on. Raises KeyError where no node has one."""
+        groups = [group for group in self.histories.groups if re.fullmatch(r"nodes/\d+", group)]
+        if not groups:
+            raise KeyError("the run has no histories of nodes: track=[point] of a deformable part, or *DATABASE_HISTORY_NODE and *DATABASE_NODOUT")
+        first = np.array([self.histories[f"{group}/position"][0] - self.histories[f"{group}/displacement"][0] for group in groups])
+        nearest = int(np.argmin(np.linalg.norm((first - [*point, 0.0][:3])[:, : len(point)], axis=1)))
+        return self.histories.table(groups[nearest])
+
     def table(self, name: str) -> Table:
         """ "energies", a group of history.h5 ("contacts/1"), the name of a gauge, or an ASCII history ("glstat")."""
         if name == "energies":
