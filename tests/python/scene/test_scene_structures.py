@@ -89,7 +89,7 @@ def test_a_structure_is_a_part_with_section_material_and_contact() -> None:
 def test_yaml_and_python_are_the_same(tmp_path: Path) -> None:
     scene = space().structure(plate={"origin": (0.5, 0, 0), "edge1": (0, 1, 0), "edge2": (0, 0, 0.4)}, thickness=0.01, material="steel", fix="bottom")
     scene.body(sphere={"centre": (0.8, 0.5, 0.5), "radius": 0.1}, density=500, title="ball").joint("hinge", ["ball", "walls"], at=(0.8, 0.5, 0.9), axis=(0, 1, 0))
-    scene.inlet(at=(0.1, 0.5, 0.8), direction=(1, 0, 0), speed="0.5 * sin(TIME)", radius=0.1)
+    scene.inlet(at=(0.2, 0.5, 0.8), direction=(1, 0, 0), speed="0.5 * sin(TIME)", radius=0.1)
     scene.to_yaml(tmp_path / "scene.yaml")
     text = (tmp_path / "scene.yaml").read_text().replace("spacing: 0.05", "spacing: 0.05\n  sound_speed: 50")
     made = written(tmp_path, text)
@@ -132,6 +132,8 @@ def test_mistakes_of_joints_are_named(kind: str, between: list[str], keys: dict[
     (lambda: tank().inlet(at=(0.1, 0.5, 0), direction=(1, 0, 0), speed=1, width=0.1), "at and direction have 2 components"),
     (lambda: tank().inlet(at=(0.1, 0.5), direction=(1, 0), speed=0, width=0.1), "expected a speed, or a formula of TIME, > 0"),
     (lambda: tank().inlet(at=(0.1, 0.5), direction=(1, 0), speed="sin(TIME)", width=0.1), "'sound_speed' is missing"),
+    (lambda: tank().inlet(at=(0.02, 0.5), direction=(1, 0), speed=1, width=0.1), "nearer than 2.5 spacings"),
+    (lambda: tank().inlet(at=(1.98, 0.5), direction=(-1, 0), speed=1, width=0.1), "hint: at: [1.95, 0.5]"),
     (lambda: tank().outlet("right"), "an outlet on the side 'right', which has a wall"),
     (lambda: tank().outlet("rigth"), "side: 'rigth' is no side of the box"),
     (lambda: courant.Scene("x", spacing=0.1, end=1).water(low=(0, 0), high=(1, 1)).outlet("right"), "the scene has no box"),
@@ -152,12 +154,12 @@ def test_a_cantilever_bends_by_its_weight(tmp_path: Path, kind: str) -> None:
     # Euler and Bernoulli's beam in plane strain, nu 0, and Timoshenko's shear: let go, its end moves between 0 and twice the deflection at rest
     rest = rho * g * length**4 / (8 * young * thick**2 / 12) + rho * g * length**2 / (2 * 5 / 6 * young / 2)
     period = 2 * math.pi * length**2 / 3.516 * math.sqrt(12 * rho / (young * thick**2))
-    scene = tank(end=2 * period, output=period).structure(material={"density": rho, "young": young, "poisson": 0}, fix="left", track=[(1 + length, 0.5)], **keys)
+    scene = tank(end=2 * period, output=period / 10).structure(material={"density": rho, "young": young, "poisson": 0}, fix="left", track=[(1 + length, 0.5)], **keys)
     run = scene.run(tmp_path / kind, threads=1, quiet=True)
     assert run.verdict == "sound", run.verdict_reasons
     end = run.track((1 + length, 0.5))
     assert abs(-end["displacement.y"].min() / (2 * rest) - 1) < 0.05
-    assert abs(-end["displacement.y"].mean() / rest - 1) < 0.05
+    assert abs(-np.trapz(end["displacement.y"], end["t"]) / end["t"][-1] / rest - 1) < 0.05
 
 
 @needs_program
@@ -182,7 +184,7 @@ def test_a_body_on_a_hinge_swings_as_a_pendulum(tmp_path: Path) -> None:
     scene.joint("hinge", ["rod", "walls"], at=(1, 0.9))
     run = scene.run(tmp_path / "rod", threads=1, quiet=True)
     x = run.histories.table("rigid_bodies/101")
-    side = x["position.x"] - 1
+    side = x["x.x"] - 1
     assert abs(side[0] - length / 2 * math.sin(angle)) < 1e-3
     turns = np.flatnonzero((side[1:] > 0) != (side[:-1] > 0))
     half = x["t"][turns[1]] - x["t"][turns[0]]
@@ -192,8 +194,8 @@ def test_a_body_on_a_hinge_swings_as_a_pendulum(tmp_path: Path) -> None:
 @needs_program
 def test_an_inlet_fills_a_tank(tmp_path: Path) -> None:
     scene = courant.Scene("filling", spacing=0.02, end=0.6, output=0.1).box(low=(0, 0), high=(1, 0.6), open=["top"])
-    run = scene.inlet(at=(0.02, 0.4), direction=(1, 0), width=0.1, speed=1.0).run(tmp_path / "filling", threads=1, quiet=True)
-    area = len(run.states[-1].points) * 0.02**2
+    run = scene.inlet(at=(0.05, 0.4), direction=(1, 0), width=0.1, speed=1.0).run(tmp_path / "filling", threads=1, quiet=True)
+    area = run.summary["active_particles"] * 0.02**2
     assert abs(area - 0.1 * 1.0 * 0.6) <= 0.1 * 0.02 + 1e-9  # one layer
     assert run.verdict == "sound", run.verdict_reasons
 

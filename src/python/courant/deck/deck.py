@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import CourantError, Diagnostics, Location
-from ..files import OutputError, write_file
+from ..files import OutputError, make_folder, write_file
 from ..words import did_you_mean
 from .blocks import Block, CardSet, Value
 from .mesh import Elements, curves_of, elements_of, nodes_of, sets_of, write_points
@@ -253,6 +253,10 @@ class Deck:
 
     def _written_to(self, folder: str | PathLike[str]) -> Path:
         target = Path(folder, self.path.name)
+        try:
+            make_folder(Path(folder))
+        except OutputError as fault:
+            raise self._error(str(fault)) from None
         if target.exists() and target.samefile(self.path):
             target = target.with_stem(target.stem + "_changed")
         return self.write(target)

@@ -9,7 +9,7 @@ from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
 from .model import MOST_ENTITIES, Lattice, Model, Near
-from .openings import read_openings
+from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
@@ -59,6 +59,7 @@ class BasinReader(ShapeReader):
             read_structures(self, root, basin)
             read_openings(self, root, basin)
             self.read_method(root, basin)
+            check_inlets(self, basin)
         if self.diagnostics.errors == before:
             self.fill(basin)
             self.check_solids(basin)

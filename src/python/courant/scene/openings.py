@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
 _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
+_GAP = 2.5  # spacings
 FIRST_CURVE, FIRST_SYSTEM, BOX, FIRST_BAND = 981, 981, 981, 982
 
 
@@ -31,13 +32,14 @@ class Inlet:
     formula: str = ""  # of TIME
     start: float = 0.0
     end: float = 0.0  # 0: that of the run [T]
+    where: Location = field(default_factory=Location)
 
 
 @dataclass
 class Outlet:
     side: str
     level: float = 0.0  # depth of the water; 0: what reaches the side leaves [L]
-    where: Location | None = None
+    where: Location = field(default_factory=Location)
 
 
 def read_openings(reader: SceneReader, root: Node, basin: Basin) -> None:
@@ -75,7 +77,22 @@ def _read_inlet(reader: SceneReader, node: Node, basin: Basin) -> None:
     if start < 0 or (end and end <= start):
         reader.error(node, "an inlet: 'start' is a time >= 0, 'end' one behind it")
     if reader.diagnostics.errors == before:
-        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, start, end))
+        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, start, end, reader.at(node)))
+
+
+def check_inlets(reader: SceneReader, basin: Basin) -> None:
+    """Refuses inlets too near in front of a mirror: the water would be held by its own image."""
+    for inlet in basin.inlets if basin.mirrors and basin.box else ():
+        for k in range(basin.dim):
+            end = 0 if inlet.direction[k] > 0 else 1
+            wall = basin.box[end][k]  # type: ignore[index]
+            side = basin.sides[2 * k + end]
+            gap = (inlet.at[k] - wall) * (1 if end == 0 else -1)
+            if abs(inlet.direction[k]) > 0.5 and side not in basin.open and gap < _GAP * basin.spacing * (1 - 1e-6):
+                there = inlet.at.copy()
+                there[k] = wall + _GAP * basin.spacing * (1 if end == 0 else -1)
+                reader.diagnostics.error(inlet.where, f"an inlet {gap:.4g} in front of the wall '{side}' of the box, nearer than {_GAP:g} spacings: as the wall is a mirror, "
+                                         "the water would be held by its image", f"at: [{', '.join(f'{v:.4g}' for v in there[: basin.dim])}], or wall_method: contact")
 
 
 def _size(reader: SceneReader, node: Node, key: str) -> tuple[float, ...]:
