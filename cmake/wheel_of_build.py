@@ -75,7 +75,10 @@ def _libraries(files: list[Path]) -> dict[str, Path]:
     """Shared libraries that these need, by the name that they are asked for."""
     found: dict[str, Path] = {}
     for file in files:
-        for name, path in _NEEDED.findall(_run("ldd", file)):
+        said = _run("ldd", file)
+        if lacking := re.findall(r"(\S+) => not found", said):
+            raise SystemExit(f"error: {file.name} needs {', '.join(lacking)}, which is not found")
+        for name, path in _NEEDED.findall(said):
             if not _OF_SYSTEM.fullmatch(name):
                 found[name] = Path(path).resolve()
     return found
@@ -95,7 +98,8 @@ def _stage(build: Path, stage: Path) -> None:
     shutil.copy2(installed / "bin" / "courant", program)
     libs = package / "libs"
     libs.mkdir()
-    for name, path in _libraries([program, module]).items():
+    source = installed / "share" / "courant" / "python" / "courant" / module.name
+    for name, path in _libraries([installed / "bin" / "courant", source]).items():
         shutil.copyfile(path, libs / name)
         (libs / name).chmod(0o755)
     # the old kind of path counts for libraries of libraries, too

@@ -220,3 +220,31 @@ def test_shock_tube(tmp_path: Path) -> None:
     assert np.abs(last["density"] - np.interp(x, exact[:, 0], exact[:, 1])).mean() < 0.012
     behind = last["pressure"][(x > 0.22) & (x < 0.30)]
     assert abs(behind.mean() / 0.303130 - 1) < 0.02
+
+
+@needs_program
+def test_water_that_falls_out_of_the_scene_is_reported(tmp_path: Path) -> None:
+    def falling() -> courant.Scene:
+        made = courant.Scene("falling", spacing=0.05, end=1, output=0.5, sound_speed=60)
+        return made.water(low=(0, 0), high=(0.5, 0.5)).box(low=(0, 0), high=(0.5, 1), open=["top", "bottom"])
+
+    run = falling().run(tmp_path / "hole", threads=1, quiet=True)
+    assert run.verdict == "doubtful" and run.summary["counters"]["outside_the_scene"] == 100
+    assert "100 particles left the scene" in "".join(run.verdict_reasons)
+    ended = falling().outlet("bottom").run(tmp_path / "outlet", threads=1, quiet=True)
+    assert "outside_the_scene" not in ended.summary["counters"] and ended.summary["active_particles"] == 0
+
+
+# pages
+
+def _examples() -> list[str]:
+    text = (HERE.parents[3] / "docs" / "scenes.md").read_text()
+    return [block.split("```")[0] for block in text.split("```yaml\n")[1:] if block.startswith("title:") and "file:" not in block.split("```")[0]]
+
+
+@pytest.mark.parametrize("scene", _examples(), ids=lambda scene: scene.split("\n")[0][7:])
+def test_scenes_of_the_page_become_decks(tmp_path: Path, scene: str) -> None:
+    made = written(tmp_path, scene)
+    assert made.deck and "warning" not in made.messages, made.messages
+    if os.environ.get("COURANT_EXECUTABLE"):
+        assert courant.check(tmp_path / "deck.k").errors == 0
