@@ -209,6 +209,15 @@ def test_water_leaves_by_an_outlet(tmp_path: Path) -> None:
 
 
 @needs_program
+def test_still_water_keeps_the_level_of_an_outlet(tmp_path: Path) -> None:
+    scene = courant.Scene("level", spacing=0.02, end=1.5, output=0.1).water(low=(0, 0), high=(1, 0.2))
+    scene.box(low=(0, 0), high=(1, 0.4), open=["top", "right"]).outlet("right", level=0.2).gauge("depth", level=[(0.5, 0), (0.5, 0.4)])
+    run = scene.run(tmp_path / "level", threads=1, quiet=True)
+    assert abs(run.gauges["depth"]["level"][-20:].mean() / 0.2 - 1) < 0.05
+    assert not [one for one in run.diagnostics.all if one.severity == "warning"]
+
+
+@needs_program
 def test_shock_tube(tmp_path: Path) -> None:
     scene = courant.Scene("shock tube", spacing=0.005, end=0.2, output=0.2)
     scene.gas(low=(-0.5, 0), high=(0, 0.04), density=1, pressure=1).gas(low=(0, 0), high=(0.5, 0.04), density=0.125, pressure=0.1)

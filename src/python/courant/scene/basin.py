@@ -13,7 +13,7 @@ from .model import Model, Part, PlaceExpression, Plate, Variables, Vector
 from .numbers import number_text
 from .placeholders import substitute
 from .solids import Solid, cards_of_solids, number_parts, part_of
-from .openings import Inlet, Outlet, add_openings
+from .openings import Inlet, Outlet, add_openings, with_outlets
 from .structures import Structure, add_structures
 
 WATER_PART, WALL_PART = 1, 11
@@ -247,7 +247,7 @@ def add_basin(basin: Basin, model: Model) -> None:
     if not water.pressure:
         water.pressure = basin.start()
     model.parts.append(water)
-    model.keywords.append(substitute(_CARDS, variables))
+    model.keywords.append(with_outlets(substitute(_CARDS, variables), basin))
     if basin.gravity > 0:
         model.keywords.append(substitute(_GRAVITY.format(axis="Y" if basin.dim == 2 else "Z"), variables))
     walls = basin.walls() if basin.box else None

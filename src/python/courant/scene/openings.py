@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
 _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
 _GAP = 2.5  # spacings
+_BEYOND = 6  # spacings: more than the reach of the kernel
 FIRST_CURVE, FIRST_SYSTEM, BOX, FIRST_BAND = 981, 981, 981, 982
 
 
@@ -197,17 +198,27 @@ def _outlet_cards(basin: Basin) -> str:
     names = {"left": (0, 0), "right": (0, 1), "bottom": (basin.dim - 1, 0)} | ({"front": (1, 0), "back": (1, 1)} if basin.dim == 3 else {})
     for number, outlet in enumerate(basin.outlets):
         axis, end = names[outlet.side]
-        ends[axis][end] = (low, high)[end][axis]
+        ends[axis][end] = edge = (low, high)[end][axis]
         if outlet.level:
+            # water beyond the end of the box holds the one before it from the first step on
+            ends[axis][end] = edge = edge + (-1 if end else 1) * _BEYOND * basin.spacing
             # a band of six spacings or half a depth, which takes the velocity within the time that waves need through it
             wide = max(6 * basin.spacing, outlet.level / 2)
             band = [[low[k], high[k]] for k in range(3)]
-            band[axis] = [high[axis] - wide, high[axis]] if end else [low[axis], low[axis] + wide]
+            band[axis] = [edge - wide, edge] if end else [edge, edge + wide]
             if basin.dim == 2:
                 band[2] = [-1.0, 1.0]
             out += "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n" + _row(FIRST_BAND + number, *(float(v) for pair in band for v in pair))
             out += "*COURANT_LEVEL_OUTLET\n$#   boxid     level       tau       dir\n"
             out += _row(FIRST_BAND + number, outlet.level, wide / math.sqrt(basin.gravity * outlet.level), (axis + 1) * (1 if end else -1))
     out += "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n" + _row(BOX, *(float(v) for pair in ends for v in pair))
-    out += "*CONTROL_SPH\n$#    ncbs     boxid        dt      idim\n" + _row(1, BOX, 1e20, basin.dim)
-    return out + "$#    cont     deriv       ini     ishow     ierod     icont\n" + _row(0, 0, 0, 1, 0, 1)
+    return out
+
+
+def with_outlets(cards: str, basin: Basin) -> str:
+    """The cards of the water, with *CONTROL_SPH of a scene with outlets: what is outside of the box is not in the results and touches nothing."""
+    if not basin.outlets:
+        return cards
+    usual = "         1         0    1.0e20" + _row(basin.dim)
+    assert usual in cards
+    return cards.replace(usual, _row(1, BOX, 1e20, basin.dim) + "$#    cont     deriv       ini     ishow     ierod     icont\n" + _row(0, 0, 0, 1, 0, 1))

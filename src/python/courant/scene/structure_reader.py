@@ -14,13 +14,15 @@ from .materials import read_material
 from .meshes import SOLIDS, Mesh
 from .shape_reader import DataNode
 from .structures import FIRST_STRUCTURE, Structure
+from .surfaces import ShapeFault, read_shape, shape_of, sound
+from .volume_mesh import tetrahedra
 
 if TYPE_CHECKING:
     from .basin import Basin
     from .reader import SceneReader
 
 _KINDS = ("box", "cylinder", "sphere", "plate", "line", "file", "mesh")
-_KEYS = (*_KINDS, "material", "thickness", "size", "fix", "to", "track", "velocity", "title", "scale", "turn", "move")
+_KEYS = (*_KINDS, "material", "thickness", "size", "fix", "to", "track", "velocity", "title", "scale", "turn", "move", "close")
 _EXAMPLE = "- {box: {low: [0.6, 0], high: [0.612, 0.08]}, material: rubber, fix: bottom}"
 _ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "bottom": (2, 0), "top": (2, 1)}
 
@@ -85,7 +87,7 @@ def _sizes(reader: SceneReader, node: Node, usual: np.ndarray) -> np.ndarray:
 def _mesh(reader: SceneReader, node: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
     entry = reader.get(node, kind)
     assert entry is not None
-    made = _of_file(reader, node, entry, kind) if kind in ("file", "mesh") else _made(reader, node, entry, kind, basin, thickness)
+    made = _of_file(reader, node, entry, kind, basin, thickness) if kind in ("file", "mesh") else _made(reader, node, entry, kind, basin, thickness)
     if made is None:
         return None
     made = reader.moved(node, made, 2 if basin.dim == 2 else 3)
@@ -136,10 +138,12 @@ def _made(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin,
     return meshes.tube(points[0], points[1], radius, size) if thickness else meshes.cylinder(points[0], points[1], radius, size)
 
 
-def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str) -> Mesh | None:
-    """Elements of a mesh: Gmsh, VTK, Abaqus and others by meshio."""
+def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+    """Elements of a mesh: Gmsh, VTK, Abaqus and others by meshio; of a surface without a thickness, which Gmsh fills."""
     hint = "Gmsh and others make a volume mesh (.msh, .vtu, .inp) of a surface; of its triangles, with a thickness, shells are made"
     try:
+        if _is_surface(entry, kind, reader) and not thickness:
+            return _filled(reader, node, entry, kind, basin)
         if kind == "mesh":
             found = entry.data if isinstance(entry, DataNode) else None
             if not hasattr(found, "cells") or not hasattr(found, "points"):
@@ -151,7 +155,9 @@ def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str) -> Mesh | 
                 return reader._refuse(entry, f"'{path}' is not there", "paths of a scene begin at its folder")  # type: ignore[no-any-return]
             found, name = module("meshio").read(path), path.stem
     except MissingModule as fault:
-        return reader._refuse(entry, str(fault))  # type: ignore[no-any-return]
+        return reader._refuse(entry, str(fault), "a surface with a 'thickness' is of shells" if "gmsh" in str(fault) else "")  # type: ignore[no-any-return]
+    except ShapeFault as fault:
+        return reader._refuse(entry, f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
     except (Exception, SystemExit) as fault:  # libraries raise exceptions of many kinds
         return reader._refuse(entry, f"the mesh cannot be read: {' '.join(str(fault).split())[:200]}", hint)  # type: ignore[no-any-return]
     made = meshes.of_meshio(found)
@@ -161,8 +167,38 @@ def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str) -> Mesh | 
     if reader.dim == 2:
         return reader._refuse(entry, "a structure of a file: in space alone", _EXAMPLE)  # type: ignore[no-any-return]
     made.name = name
+    _note_tetrahedra(made)
+    return made
+
+
+def _note_tetrahedra(made: Mesh) -> None:
     if made.kind == SOLIDS and (made.cells[:, 3] == made.cells[:, 4]).any():
         made.notes.append("tetrahedra of four nodes are stiff in bending: at least four of them through the thickness, or hexahedra")
+
+
+_SURFACES = (".stl", ".obj", ".ply", ".vtp")
+
+
+def _is_surface(entry: Node, kind: str, reader: SceneReader) -> bool:
+    """A file of triangles, or a mesh of PyVista, VTK or trimesh."""
+    if kind == "file":
+        return Path(reader.text(entry)).suffix.lower() in _SURFACES
+    return isinstance(entry, DataNode) and not (hasattr(entry.data, "cells") and hasattr(entry.data, "points") and not hasattr(entry.data, "IsA"))
+
+
+def _filled(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin) -> Mesh:
+    """Tetrahedra within a closed surface, in the scene's size. Raises ShapeFault, MissingModule."""
+    raw = shape_of(entry.data) if kind == "mesh" else read_shape(Path(reader.folder, reader.text(entry)))
+    shape = sound(raw, closed=True, close=reader.flag(node, "close", False))
+    scale = reader.get(node, "scale")
+    factor = (reader.length_of(scale, "scale", "number") or 1.0) if scale is not None else 1.0
+    size = float(_sizes(reader, node, np.full(3, max(2 * basin.spacing, float((shape.high - shape.low).min()) * factor / 4)))[0])
+    made = tetrahedra(shape, size / factor)
+    made.name, made.notes = raw.name or "mesh", list(shape.notes)
+    share = made.volumes().sum() / shape.volume()
+    if abs(share - 1) > 0.01:
+        made.notes.append(f"the elements hold {share:.4g} of the volume within the surface: a smaller 'size' follows it more closely")
+    _note_tetrahedra(made)
     return made
 
 

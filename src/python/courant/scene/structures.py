@@ -203,7 +203,7 @@ def add_structures(basin: Basin, model: Model, rigid: list[int]) -> None:
     if basin.dim == 3 and rigid:
         text += part_set(OTHERS, rigid)
         text += _TOUCH.format(kind="SURFACE_TO_SURFACE", cid=4, title="deformable parts against walls and bodies", surfb=OTHERS, surfbtyp=2,
-                              sbst=f"{0.001 * basin.spacing:.3g}")
+                              sbst=f"{1e-6 * basin.spacing:.3g}")
     if basin.dim == 3:
         text += _TOUCH.format(kind="SINGLE_SURFACE", cid=5, title="deformable parts against each other", surfb=0, surfbtyp=0, sbst="0")
     if any(len(one.tracked) for one in basin.structures):
