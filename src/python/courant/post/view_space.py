@@ -59,10 +59,10 @@ def _patches(walls: Faces, camera: Camera) -> list[np.ndarray]:
 
 
 def bodies_among(walls: Faces, x: np.ndarray) -> np.ndarray:
-    """Faces that are drawn opaque, (faces,): of solids, and of closed shells that do not hold most of the particles x (n, 3)."""
-    out = walls.solid.copy()
+    """Faces that are drawn opaque, (faces,): of solids, of shells that deform, and of closed rigid shells that do not hold most of the particles x (n, 3)."""
+    out = walls.deforms.copy()
     for part in np.unique(walls.part[~out]):
-        mine = np.flatnonzero((walls.part == part) & ~walls.solid)
+        mine = np.flatnonzero((walls.part == part) & ~out)
         sides = np.sort(np.concatenate([walls.corners[mine][:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
         _, number = np.unique(walls.x, axis=0, return_inverse=True)  # shells need not share their nodes
         sides = np.sort(number.ravel()[sides[sides[:, 0] != sides[:, 1]]], axis=1)
