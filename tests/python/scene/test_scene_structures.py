@@ -66,6 +66,29 @@ def test_elements_of_other_programs_are_turned_the_right_side_out(cells: dict[st
     assert abs(np.einsum("ij,ij->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6 - volume) < 1e-12
 
 
+def test_gmsh_fills_a_closed_surface(tmp_path: Path) -> None:
+    pytest.importorskip("gmsh", reason="gmsh is missing")
+    pytest.importorskip("vtkmodules", reason="python3-vtk9 is missing")
+    from .house import VOLUME, stl
+
+    file = stl(tmp_path / "house.stl", turned=(1, 4))  # in millimetres
+    scene = space().structure(file, scale=0.001, move=(0.5, 0.3, 0), material="wood", fix="bottom", size=0.05)
+    made = scene._model().parts[-1].solids[0]
+    assert abs(made.volumes().sum() / (VOLUME * 1e-9) - 1) < 0.01 and made.volumes().min() > 0
+    assert scene.deck() == scene.deck()
+
+
+def test_a_surface_without_gmsh_or_thickness_is_refused_with_both_hints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    from .house import stl
+
+    pytest.importorskip("vtkmodules", reason="python3-vtk9 is missing")
+    monkeypatch.setitem(sys.modules, "gmsh", None)
+    text = message(space().structure(stl(tmp_path / "house.stl"), scale=0.001, move=(0.5, 0.3, 0), material="wood"))
+    assert "pip install gmsh" in text and "a surface with a 'thickness' is of shells" in text
+
+
 def test_water_keeps_out_of_the_thickness_of_shells() -> None:
     plate = meshes.plate(np.zeros(3), np.array([1.0, 0, 0]), np.array([0, 1.0, 0]), np.full(3, 0.25))
     x = np.array([[0.5, 0.5, 0.05], [0.5, 0.5, -0.12], [1.05, 0.5, 0], [1.2, 0.5, 0], [1.08, 1.08, 0], [0.3, 0.9, 0.099]])

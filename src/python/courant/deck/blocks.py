@@ -31,7 +31,8 @@ def split_at_commas(line: str, columns: int) -> list[str] | None:
     """Fields between commas; None of a line in fixed columns, whose commas are behind the last column or within brackets."""
     if "," not in line[:columns]:
         return None
-    depth, begin, out = 0, 0, []
+    out: list[str] = []
+    depth = begin = 0
     whole = line.count("(") == line.count(")") and line.count("<") == line.count(">")
     for k, letter in enumerate(line):
         depth += (letter in "(<") - (letter in ")>" and depth > 0) if whole else 0

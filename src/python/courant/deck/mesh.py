@@ -92,7 +92,7 @@ def elements_of(blocks: Iterable[Block]) -> dict[str, Elements]:
 
 def sets_of(blocks: Iterable[Block]) -> dict[tuple[str, int], np.ndarray]:
     """Of *SET_..._LIST and *SET_... with its options, by kind and number."""
-    out = {}
+    out: dict[tuple[str, int], np.ndarray] = {}
     for block in blocks:
         words = block.name.split("_")
         if words[0] != "SET" or len(words) < 2 or words[1] == "SEGMENT" or not set(words[2:]) <= {"LIST", "TITLE", "COLLECT"}:

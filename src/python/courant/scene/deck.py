@@ -238,8 +238,8 @@ def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bo
     head = f"$ Written by {by}: change the scene, not this file.\n$ Parameters:\n"
     head += "".join(f"$   {parameter} = {number_text(value)}\n" for parameter, value in model.parameters) + "$ Parts:\n"
     for part, one in zip(model.parts, placed):
-        count = f"{one.particles()} particles" if one.particles() else f"{len(one.shells)} {'solids' if part.solids else 'shells'}"
-        head += f"$   {part.id} {part.title}: {count}\n"
+        holds = f"{one.particles()} particles" if one.particles() else f"{len(one.shells)} {'solids' if part.solids else 'shells'}"
+        head += f"$   {part.id} {part.title}: {holds}\n"
     head += f"*KEYWORD\n*TITLE\n{model.title}\n"
     head += "".join(block if not block or block.endswith("\n") else block + "\n" for block in model.keywords)
     out = [(head + _parts_text(model.parts)).encode("utf-8", "surrogateescape")]

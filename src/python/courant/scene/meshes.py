@@ -172,7 +172,7 @@ def plate(origin: np.ndarray, edge1: np.ndarray, edge2: np.ndarray, sizes: np.nd
 
 def line(points: np.ndarray, size: float) -> Mesh:
     """A polyline (n, 2) of the plane, of shells one unit deep."""
-    pieces, at = [points[:1]], 0
+    pieces = [points[:1]]
     for a, b in zip(points[:-1], points[1:]):
         n = divided(float(np.linalg.norm(b - a)), size)
         pieces.append(a + (b - a) * (np.arange(1, n + 1) / n)[:, None])

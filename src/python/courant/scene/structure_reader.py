@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -145,7 +145,7 @@ def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Bas
         if _is_surface(entry, kind, reader) and not thickness:
             return _filled(reader, node, entry, kind, basin)
         if kind == "mesh":
-            found = entry.data if isinstance(entry, DataNode) else None
+            found: Any = entry.data if isinstance(entry, DataNode) else None
             if not hasattr(found, "cells") or not hasattr(found, "points"):
                 return reader._refuse(entry, "mesh: expected a mesh of meshio", hint)  # type: ignore[no-any-return]
             name = "mesh"
@@ -188,7 +188,7 @@ def _is_surface(entry: Node, kind: str, reader: SceneReader) -> bool:
 
 def _filled(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin) -> Mesh:
     """Tetrahedra within a closed surface, in the scene's size. Raises ShapeFault, MissingModule."""
-    raw = shape_of(entry.data) if kind == "mesh" else read_shape(Path(reader.folder, reader.text(entry)))
+    raw = shape_of(entry.data) if isinstance(entry, DataNode) else read_shape(Path(reader.folder, reader.text(entry)))
     shape = sound(raw, closed=True, close=reader.flag(node, "close", False))
     scale = reader.get(node, "scale")
     factor = (reader.length_of(scale, "scale", "number") or 1.0) if scale is not None else 1.0
