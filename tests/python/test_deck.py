@@ -189,6 +189,11 @@ def test_a_changed_deck_runs(tmp_path: Path) -> None:
     assert tank.check().errors == 0
     run = tank.run(tmp_path / "out", threads=1, quiet=True)
     assert abs(run.summary["time"] - 0.01) < 0.005 and run.termination == "normal"
+    tank.add("*PARAMETER\nR    steps      0.01")
+    tank["CONTROL_TERMINATION"]["ENDTIM"] = "&steps"
+    table = courant.sweep(tank, {"steps": [0.005, 0.01]}, tmp_path / "sweep", measure=lambda one: {"time": one.summary["time"]}, say=None)
+    times = [row["time"] for row in table] if isinstance(table, list) else list(table["time"])
+    assert times[0] < times[1] <= 0.012
     # particles that fall freely: the deck's gravity, doubled, over times that differ by a step
     tank["DEFINE_CURVE"][0].lines[-2:] = [line.replace("9.81", "19.62") for line in tank["DEFINE_CURVE"][0].lines[-2:]]
     twice = tank.run(tmp_path / "twice", threads=1, quiet=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -428,6 +429,16 @@ class TestRecipe:
         said, diagnostics = [], Diagnostics()
         assert run_post(tmp_path / "R", cubes.folder, said.append, diagnostics), diagnostics.text()
         assert "bar.png" in "".join(said)
+
+
+def test_a_window_draws_off_the_screen(tmp_path: Path) -> None:
+    pytest.importorskip("pyvista", reason="pyvista is missing")
+    if not os.environ.get("COURANT_EXECUTABLE"):
+        pytest.skip("needs the program")
+
+    scene = courant.Scene("drop", spacing=0.1, end=0.02).water(low=(0, 0), high=(0.4, 0.4)).box(low=(0, 0), high=(1, 1), open=["top"])
+    scene.run(tmp_path / "out", threads=1, quiet=True).states[-1].show("pressure", tmp_path / "window.png")
+    assert (tmp_path / "window.png").stat().st_size > 5000
 
 
 def test_bodies_are_opaque_and_the_walls_around_the_water_are_not() -> None:

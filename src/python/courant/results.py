@@ -223,6 +223,12 @@ class RunState(Mesh):
         writes it to `file`. Raises MissingModule, KeyError with the names there are."""
         return self._run.plot(field=field, t=self.t, file=file, **keys)
 
+    def show(self, field: str = "speed", file: str | Path | None = None) -> Any:
+        """A window of PyVista that turns with the mouse, see courant.window.show. Raises MissingModule, KeyError with the names there are."""
+        from .window import show
+
+        return show(self, field, file)
+
 
 class States(Sequence[RunState]):
     """The states of a run in order of time; each is read when it is asked for."""

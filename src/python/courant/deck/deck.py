@@ -129,14 +129,17 @@ class Deck:
         return some[0]
 
     def add(self, text: str) -> list[Block]:
-        """Adds keywords, as text, in front of *END. Of a control card that is there twice, the last counts."""
+        """Adds keywords, as text, in front of *END, parameters, which count from there on, behind *KEYWORD. Of a control card that is there twice, the last counts."""
         head, made = self._split(text if text.endswith("\n") else text + "\n", 0)
         if head.strip() or not made:
             raise self._error("add: expected keywords, each on a line that begins with *", "deck.add('*CONTROL_TERMINATION\\n0.5')")
         at = next((k for k, block in enumerate(self.blocks) if block.name == "END"), len(self.blocks))
         if at == len(self.blocks) and at and not self.blocks[-1].lines[-1].endswith("\n"):
             self.blocks[-1].lines[-1] += "\n"
-        self.blocks[at:at] = made
+        first = [block for block in made if block.name.startswith("PARAMETER")]
+        self.blocks[at:at] = [block for block in made if block not in first]
+        begin = next((k + 1 for k, block in enumerate(self.blocks) if block.name == "KEYWORD"), 0)
+        self.blocks[begin:begin] = first
         return made
 
     def remove(self, what: str | Block) -> int:
