@@ -66,6 +66,12 @@ def test_elements_of_other_programs_are_turned_the_right_side_out(cells: dict[st
     assert abs(np.einsum("ij,ij->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6 - volume) < 1e-12
 
 
+def test_elements_with_nodes_on_their_sides_are_refused_by_name() -> None:
+    mixed = _Cells(CUBE, tetra=[[0, 1, 2, 4]], tetra10=[[0, 1, 2, 4, 3, 3, 3, 3, 3, 3]])
+    assert meshes.of_meshio(mixed) is None and meshes.of_meshio(_Cells(CUBE, line=[[0, 1]])) is None
+    assert "expected elements of first order, got tetra, tetra10" in message(space().structure(mixed, material="steel"))
+
+
 def test_gmsh_fills_a_closed_surface(tmp_path: Path) -> None:
     pytest.importorskip("gmsh", reason="gmsh is missing")
     pytest.importorskip("vtkmodules", reason="python3-vtk9 is missing")
@@ -212,6 +218,15 @@ def test_a_body_on_a_hinge_swings_as_a_pendulum(tmp_path: Path) -> None:
     turns = np.flatnonzero((side[1:] > 0) != (side[:-1] > 0))
     half = x["t"][turns[1]] - x["t"][turns[0]]
     assert abs(half / (period / 2) - 1) < 0.02
+
+
+@needs_program
+def test_a_part_goes_with_a_driven_wall(tmp_path: Path) -> None:
+    scene = tank(end=0.5).wall(line=[(1, 0.6), (1.2, 0.6)], motion={"y": "0.05 * (1 - COS(2*PI*TIME/0.5))"}, title="driven")
+    keys = {"thickness": 0.01, "material": {"density": 1000, "young": 5e9, "poisson": 0}}
+    scene.structure(line=[(1.2, 0.6), (1.4, 0.6)], fix="left", to="driven", track=[(1.2, 0.6)], **keys)  # type: ignore[arg-type]
+    held = scene.run(tmp_path / "strip", threads=1, quiet=True).track((1.2, 0.6))
+    assert np.abs(held["displacement.y"] - 0.05 * (1 - np.cos(2 * math.pi * held["t"] / 0.5))).max() < 1e-6
 
 
 @needs_program

@@ -191,7 +191,9 @@ _FLAT = {"quad": (0, 1, 2, 3), "triangle": (0, 1, 2, 2)}
 def of_meshio(mesh: Any) -> Mesh | None:
     """Its solids; where it has none its triangles and quadrangles. None where it has neither, or elements with nodes on their sides."""
     points = np.column_stack([np.asarray(mesh.points, dtype=float), np.zeros((len(mesh.points), 3 - np.shape(mesh.points)[1]))])
-    for table in (_OF_MESHIO, _FLAT):
+    for table, kinds in ((_OF_MESHIO, ("tetra", "hexahedron", "wedge", "pyramid")), (_FLAT, ("triangle", "quad"))):
+        if any(block.type.startswith(kinds) and block.type not in table for block in mesh.cells):
+            return None
         found = [np.asarray(block.data, dtype=int)[:, table[block.type]] for block in mesh.cells if block.type in table]
         if found:
             used, numbers = np.unique(np.concatenate(found), return_inverse=True)
