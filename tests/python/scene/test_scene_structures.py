@@ -205,6 +205,17 @@ def test_dam_break_on_an_elastic_plate(tmp_path: Path) -> None:
 
 
 @needs_program
+def test_still_water_weighs_on_a_plate(tmp_path: Path) -> None:
+    # the plate is half a spacing away, so the level falls by up to 2.5 %: rho g h^2 / 2 is known within 5 %
+    scene = courant.Scene("still water against a plate", spacing=0.02, end=0.6, output=0.1).water(low=(0, 0), high=(0.4, 0.2))
+    scene.box(low=(0, 0), high=(0.8, 0.4), open=["top"]).gauge("load", force="plate")
+    scene.structure(box={"low": (0.41, 0), "high": (0.45, 0.3)}, material={"density": 2000, "young": 1e8}, fix="bottom", title="plate")
+    run = scene.run(tmp_path / "still", threads=1, quiet=True)
+    load = run.gauges["load"]["force.x"]
+    assert run.verdict == "sound" and abs(load[len(load) // 2 :].mean() / (0.5 * 9810 * 0.2**2) - 1) < 0.05
+
+
+@needs_program
 def test_a_body_on_a_hinge_swings_as_a_pendulum(tmp_path: Path) -> None:
     # a rod of length L, hinged at one end, let go at a small angle: T = 2 pi sqrt(2 L / 3 g)
     length, angle = 0.4, 0.1
