@@ -1,7 +1,7 @@
 """The wheel: program, library, extension module, Python package and pages of the manual, with the libraries that they need.
 
-A build backend of PEP 517 without requirements: cmake, ninja, the compiler and patchelf are Debian's. `COURANT_BUILD=build/release` takes a build that is
-there; else one is made in build/wheel. System libraries of the manylinux policy (libc, libm, libstdc++, libgcc_s) stay outside.
+A build backend of PEP 517 without requirements: cmake, ninja, the compiler and patchelf are Debian's. `COURANT_BUILD=build/release` takes a build that
+is there; else one is made in build/wheel. System libraries of the manylinux policy (libc, libm, libstdc++, libgcc_s) stay outside.
 """
 from __future__ import annotations
 
@@ -66,8 +66,9 @@ def _build() -> Path:
     if given := os.environ.get("COURANT_BUILD"):
         return Path(ROOT, given)
     build = ROOT / "build" / "wheel"
-    _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCOURANT_UNITY=ON", f"-DPython_EXECUTABLE={sys.executable}")
-    _run("cmake", "--build", build, "--target", "all")
+    _run("cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCOURANT_UNITY=ON", "-DCOURANT_PRECOMPILED_HEADERS=ON",
+         "-DCOURANT_TESTS=OFF", "-DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON", f"-DPython_EXECUTABLE={sys.executable}")
+    _run("cmake", "--build", build)
     return build
 
 

@@ -129,7 +129,8 @@ class Deck:
         return some[0]
 
     def add(self, text: str) -> list[Block]:
-        """Adds keywords, as text, in front of *END, parameters, which count from there on, behind *KEYWORD. Of a control card that is there twice, the last counts."""
+        """Adds keywords, as text, in front of *END, parameters, which count from there on, behind *KEYWORD. Of a control
+        card that is there twice, the last counts."""
         head, made = self._split(text if text.endswith("\n") else text + "\n", 0)
         if head.strip() or not made:
             raise self._error("add: expected keywords, each on a line that begins with *", "deck.add('*CONTROL_TERMINATION\\n0.5')")
@@ -160,7 +161,8 @@ class Deck:
         for block in self.blocks:
             if block.name in ("INCLUDE_PATH", "INCLUDE_PATH_RELATIVE"):
                 folders += [self.path.parent / name for name in _names(block)]
-        files = [(name, block) for block in self.blocks if block.name in ("INCLUDE", "INCLUDE_TRANSFORM") for name in _names(block)[: 1 if "_" in block.name else None]]
+        several, one = ([block for block in self.blocks if block.name == name] for name in ("INCLUDE", "INCLUDE_TRANSFORM"))
+        files = [(name, block) for block in several for name in _names(block)] + [(name, block) for block in one for name in _names(block)[:1]]
         out = []
         for name, block in files:
             there = next((folder / name for folder in folders if (folder / name).is_file()), None)

@@ -79,7 +79,8 @@ def read_gases(reader: SceneReader, root: Node, model: Model) -> bool:
         return False
     water = reader.get(root, "water")
     if water is not None and (reader.get(water, "blocks") is not None or reader.get(water, "bodies") is not None):
-        reader.error(node, "gases and water in one scene are not there: their densities are a factor of 800 apart", "leave the gas out; water then has a free surface")
+        reader.error(node, "gases and water in one scene are not there: their densities are a factor of 800 apart",
+                     "leave the gas out; water then has a free surface")
         return True
     for key in _NOT_BESIDE:
         if (entry := reader.get(root, key)) is not None:
@@ -89,7 +90,8 @@ def read_gases(reader: SceneReader, root: Node, model: Model) -> bool:
         return True
     before = reader.diagnostics.errors
     spacing = reader.length(root, "spacing") if reader.get(root, "spacing") is not None or water is None else reader.length(water, "spacing")
-    gases = [made for number, entry in enumerate(node.value, 1) if reader.is_map(entry, _EXAMPLE, "a gas") and (made := _read_gas(reader, entry, number, spacing))]
+    entries = [entry for entry in node.value if reader.is_map(entry, _EXAMPLE, "a gas")]
+    gases = [made for number, entry in enumerate(entries, 1) if (made := _read_gas(reader, entry, number, spacing))]
     end = reader.length(root, "end", "time")
     output = reader.length(root, "output", "time") if reader.get(root, "output") is not None else end / 100
     gravity = reader.number(entry, "gravity") or 0.0 if (entry := reader.get(root, "gravity")) is not None else 0.0
@@ -111,7 +113,8 @@ def read_gases(reader: SceneReader, root: Node, model: Model) -> bool:
 def _gravity_cards(dim: int, gravity: float, end: float) -> str:
     axis = "Y" if dim == 2 else "Z"
     rows = "".join(f"{number_text(t, 20):>20}{number_text(gravity, 20):>20}\n" for t in (0.0, 10 * end + 1))
-    return f"*LOAD_BODY_{axis}\n$#    lcid        sf\n         1       1.0\n*DEFINE_CURVE\n$#    lcid\n         1\n$#                a1                  o1\n{rows}"
+    return f"*LOAD_BODY_{axis}\n$#    lcid        sf\n         1       1.0\n" \
+           f"*DEFINE_CURVE\n$#    lcid\n         1\n$#                a1                  o1\n{rows}"
 
 
 def _read_gas(reader: SceneReader, node: Node, number: int, spacing: float) -> Gas | None:
@@ -152,7 +155,8 @@ def _planes(reader: SceneReader, root: Node, gases: list[Gas]) -> str:
             for k in range(dim):
                 top = block.low[k] + block.spacing * block.n[k]
                 if block.low[k] < low[k] - 1e-6 * block.spacing or top > high[k] + 1e-6 * block.spacing:
-                    reader.error(box, f"'{gas.part.title}' reaches from {block.low[k]:g} to {top:g} along {'xyz'[k]}, beyond the box from {low[k]:g} to {high[k]:g}")
+                    reader.error(box, f"'{gas.part.title}' reaches from {block.low[k]:g} to {top:g} along {'xyz'[k]}, "
+                                 f"beyond the box from {low[k]:g} to {high[k]:g}")
     rows = ""
     for number, side in enumerate(sides):
         axis, end = divmod(number, 2)
@@ -169,6 +173,7 @@ def _explain(gases: list[Gas], planes: bool, gravity: float, model: Model) -> No
                               f"*MAT_NULL {gas.part.id}, *EOS_LINEAR_POLYNOMIAL {gas.part.id}"))
     model.choices.append(("artificial viscosity 0.5 and 1.0", "shocks need the linear and the quadratic term", "*HOURGLASS Q2, Q1"))
     model.choices.append(("cubic spline, h 1.5 spacings, which varies with the density", "gas is compressed and expands by factors", "*SECTION_SPH"))
-    model.choices.append(("sides of the box are planes of symmetry" if planes else "no walls", "gas slips along them without a boundary layer" if planes else "no box",
+    model.choices.append(("sides of the box are planes of symmetry" if planes else "no walls",
+                          "gas slips along them without a boundary layer" if planes else "no box",
                           "*BOUNDARY_SPH_SYMMETRY_PLANE" if planes else "none"))
     model.choices.append((f"gravity {gravity:g}", "none, if not given: gas weighs little", "*LOAD_BODY" if gravity else "none"))

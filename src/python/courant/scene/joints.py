@@ -125,11 +125,13 @@ def _cards(kind: str, number: int, parts: tuple[int, int], at: np.ndarray, axis:
     beside = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
     points = [at, at + arm * axis, at + arm * beside / np.linalg.norm(beside)][:pairs]
     first = FIRST_NODE + 6 * number
-    nodes = "".join(f"{first + 2 * k + side:8}" + "".join(number_text(float(v), 15).rjust(16) for v in point) + "\n" for k, point in enumerate(points) for side in (0, 1))
+    at_points = ["".join(number_text(float(v), 15).rjust(16) for v in point) for point in points]
+    nodes = "".join(f"{first + 2 * k + side:8}{text}\n" for k, text in enumerate(at_points) for side in (0, 1))
     extra = "".join(f"{part:10}{first + 2 * k + side:10}\n" for k in range(pairs) for side, part in enumerate(parts))
     row = "".join(f"{first + k:10}" for k in range(2 * pairs))
     return (f"$ Joint {number + 1}: {kind}\n*NODE\n$#   nid               x               y               z\n{nodes}"
-            f"*CONSTRAINED_EXTRA_NODES_NODE\n$#     pid       nid\n{extra}*CONSTRAINED_JOINT_{name}\n$#      n1        n2        n3        n4        n5        n6\n{row}\n")
+            f"*CONSTRAINED_EXTRA_NODES_NODE\n$#     pid       nid\n{extra}"
+            f"*CONSTRAINED_JOINT_{name}\n$#      n1        n2        n3        n4        n5        n6\n{row}\n")
 
 
 def _spring_cards(number: int, parts: tuple[int, int], axis: np.ndarray, springs: list[float]) -> str:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
 _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
+_BOX_HEAD = "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n"
 _GAP = 2.5  # spacings
 _BEYOND = 6  # spacings: more than the reach of the kernel
 FIRST_CURVE, FIRST_SYSTEM, BOX, FIRST_BAND = 981, 981, 981, 982
@@ -92,8 +93,9 @@ def check_inlets(reader: SceneReader, basin: Basin) -> None:
             if abs(inlet.direction[k]) > 0.5 and side not in basin.open and gap < _GAP * basin.spacing * (1 - 1e-6):
                 there = inlet.at.copy()
                 there[k] = wall + _GAP * basin.spacing * (1 if end == 0 else -1)
-                reader.diagnostics.error(inlet.where, f"an inlet {gap:.4g} in front of the wall '{side}' of the box, nearer than {_GAP:g} spacings: as the wall is a mirror, "
-                                         "the water would be held by its image", f"at: [{', '.join(f'{v:.4g}' for v in there[: basin.dim])}], or wall_method: contact")
+                reader.diagnostics.error(inlet.where, f"an inlet {gap:.4g} in front of the wall '{side}' of the box, nearer than "
+                                         f"{_GAP:g} spacings: as the wall is a mirror, the water would be held by its image",
+                                         f"at: [{', '.join(f'{v:.4g}' for v in there[: basin.dim])}], or wall_method: contact")
 
 
 def _size(reader: SceneReader, node: Node, key: str) -> tuple[float, ...]:
@@ -125,7 +127,8 @@ def _read_outlet(reader: SceneReader, node: Node, basin: Basin) -> None:
     sides = [side for side in basin.sides if side != "top"]
     side = reader.text(entry) if entry is not None else ""
     if side not in sides:
-        reader.error(entry or node, f"side: '{side}' is no side of the box through which water leaves" if side else "'side' is missing", f"sides: {', '.join(sides)}")
+        what = f"side: '{side}' is no side of the box through which water leaves" if side else "'side' is missing"
+        reader.error(entry or node, what, f"sides: {', '.join(sides)}")
         return
     if basin.box is None:
         reader.error(node, "an outlet is an open side of the box, and the scene has no box", "box: {low: [0, 0], high: [2, 1], open: [top, right]}")
@@ -145,7 +148,8 @@ def add_openings(basin: Basin, model: Model) -> None:
     for number, inlet in enumerate(basin.inlets):
         model.keywords.append(_inlet_cards(inlet, number, basin))
         how = f"formula {inlet.formula}" if inlet.formula else f"{inlet.speed:g}"
-        model.choices.append((f"water enters at ({', '.join(f'{v:g}' for v in inlet.at[: basin.dim])}), speed {how}", "given", "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED")))
+        at = ", ".join(f"{v:g}" for v in inlet.at[: basin.dim])
+        model.choices.append((f"water enters at ({at}), speed {how}", "given", "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED")))
     if basin.outlets:
         model.keywords.append(_outlet_cards(basin))
         for outlet in basin.outlets:
@@ -208,10 +212,10 @@ def _outlet_cards(basin: Basin) -> str:
             band[axis] = [edge - wide, edge] if end else [edge, edge + wide]
             if basin.dim == 2:
                 band[2] = [-1.0, 1.0]
-            out += "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n" + _row(FIRST_BAND + number, *(float(v) for pair in band for v in pair))
+            out += _BOX_HEAD + _row(FIRST_BAND + number, *(float(v) for pair in band for v in pair))
             out += "*COURANT_LEVEL_OUTLET\n$#   boxid     level       tau       dir\n"
             out += _row(FIRST_BAND + number, outlet.level, wide / math.sqrt(basin.gravity * outlet.level), (axis + 1) * (1 if end else -1))
-    out += "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n" + _row(BOX, *(float(v) for pair in ends for v in pair))
+    out += _BOX_HEAD + _row(BOX, *(float(v) for pair in ends for v in pair))
     return out
 
 

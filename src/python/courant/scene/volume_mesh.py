@@ -37,7 +37,8 @@ def tetrahedra(shape: Shape, size: float) -> Mesh:
         tags, points, _ = gmsh.model.mesh.getNodes()
         _, corners = gmsh.model.mesh.getElementsByType(4)
     except Exception as fault:  # gmsh raises plain ones
-        raise ShapeFault(f"Gmsh finds no mesh within the surface: {' '.join(str(fault).split())[:200]}", "repair the surface, or mesh it in Gmsh's window") from None
+        raise ShapeFault(f"Gmsh finds no mesh within the surface: {' '.join(str(fault).split())[:200]}",
+                         "repair the surface, or mesh it in Gmsh's window") from None
     finally:
         gmsh.finalize()
     if not len(corners):
