@@ -220,7 +220,7 @@ def test_a_body_on_a_hinge_swings_as_a_pendulum(tmp_path: Path) -> None:
     # a rod of length L, hinged at one end, let go at a small angle: T = 2 pi sqrt(2 L / 3 g)
     length, angle = 0.4, 0.1
     period = 2 * math.pi * math.sqrt(2 * length / (3 * 9.81))
-    scene = tank(end=1.1 * period, output=period).body(box={"low": (-0.005, -length), "high": (0.005, 0)}, density=2000, title="rod", turn=math.degrees(angle), move=(1, 0.9))
+    scene = tank(end=1.1 * period, output=period / 20).body(box={"low": (-0.005, -length), "high": (0.005, 0)}, density=2000, title="rod", turn=math.degrees(angle), move=(1, 0.9))
     scene.joint("hinge", ["rod", "walls"], at=(1, 0.9))
     run = scene.run(tmp_path / "rod", threads=1, quiet=True)
     x = run.histories.table("rigid_bodies/101")
@@ -229,6 +229,30 @@ def test_a_body_on_a_hinge_swings_as_a_pendulum(tmp_path: Path) -> None:
     turns = np.flatnonzero((side[1:] > 0) != (side[:-1] > 0))
     half = x["t"][turns[1]] - x["t"][turns[0]]
     assert abs(half / (period / 2) - 1) < 0.02
+
+
+@needs_program
+def test_a_hinge_with_a_spring(tmp_path: Path) -> None:
+    # the rod of the pendulum with a spring that is slack at the start: omega^2 = (k + m g L / 2) / (m L^2 / 3)
+    length, angle, k = 0.4, 0.1, 40.0
+    m = 2000 * 0.01 * length
+    period = 2 * math.pi / math.sqrt((k + m * 9.81 * length / 2) / (m * length**2 / 3))
+    scene = tank(end=1.1 * period, output=period / 20).body(box={"low": (-0.005, -length), "high": (0.005, 0)}, density=2000, title="rod", turn=math.degrees(angle), move=(1, 0.9))
+    run = scene.joint("hinge", ["rod", "walls"], at=(1, 0.9), stiffness=k).run(tmp_path / "rod", threads=1, quiet=True)
+    omega = run.histories.table("rigid_bodies/101")
+    back = np.flatnonzero((omega["omega.z"][2:] > 0) != (omega["omega.z"][1:-1] > 0))  # where it turns back
+    assert abs(omega["t"][back[0] + 2] / (period / 2) - 1) < 0.02
+
+
+@needs_program
+def test_water_enters_in_space(tmp_path: Path) -> None:
+    def entering(**keys: Any) -> float:
+        scene = courant.Scene("jet", spacing=0.025, end=0.2, output=0.1).box(low=(0, 0, 0), high=(1, 0.5, 0.8), open=["top"])
+        run = scene.inlet(at=(0.1, 0.25, 0.6), direction=(1, 0, 0), speed=1.0, **keys).run(tmp_path / "jet", threads=1, quiet=True)
+        return float(run.summary["active_particles"] * 0.025**3)
+
+    assert abs(entering(sides=(0.1, 0.2)) / (0.02 * 0.2) - 1) < 0.15  # one layer in eight
+    assert abs(entering(radius=0.1) / (math.pi * 0.01 * 0.2) - 1) < 0.2  # and the squares of a circle
 
 
 @needs_program
