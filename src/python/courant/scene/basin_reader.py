@@ -8,6 +8,7 @@ import numpy as np
 from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
+from .joints import joined_names
 from .model import MOST_ENTITIES, Lattice, Model, Near
 from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
@@ -64,7 +65,7 @@ class BasinReader(ShapeReader):
             self.fill(basin)
             self.check_solids(basin)
             self.check_water(basin)
-            self.check_bodies_of_the_plane(basin)
+            self.check_bodies_of_the_plane(basin, joined_names(self, root))
         if self.diagnostics.errors > before:
             return
         if fault := basin.complete():
@@ -199,10 +200,12 @@ class BasinReader(ShapeReader):
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
 
-    def check_bodies_of_the_plane(self, basin: Basin) -> None:
-        """Bodies of the plane touch no wall: one that sinks would leave the box unseen."""
+    def check_bodies_of_the_plane(self, basin: Basin, joined: set[str]) -> None:
+        """Bodies of the plane touch no wall: one that sinks and has no joint would leave the box unseen."""
+        basin.rigid_parts()  # numbers them
         held = basin.box is not None or any(not solid.free for solid in basin.solids)
-        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold), None)
+        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold
+                        and not {solid.shape.name, str(solid.part)} & joined), None)
         if basin.dim == 2 and held and falling is not None:
             self.diagnostics.warning(falling.where, f"'{falling.shape.name or 'a body'}' passes through walls and falls through the floor: bodies of the plane "
                                      "do not touch walls", "only the water acts on it; a scene in space has this contact, and hold: [x, y] keeps a body")

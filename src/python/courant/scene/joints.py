@@ -11,6 +11,7 @@ from .numbers import number_text
 
 if TYPE_CHECKING:
     from .basin import Basin
+    from .basin_reader import BasinReader
     from .model import Model
     from .reader import SceneReader
 
@@ -29,6 +30,13 @@ $#  lcidph    lcidt    lcidps    dlcidph    dlcidt   dlcidps
 
 
 """
+
+
+def joined_names(reader: BasinReader, root: Node) -> set[str]:
+    """What the joints of a scene name, titles and numbers."""
+    node = reader.get(root, "joints")
+    pairs = [reader.get(entry, "between") for entry in node.value] if node is not None and is_list(node) else []
+    return {str(one.value) for pair in pairs if pair is not None and is_list(pair) for one in pair.value}
 
 
 def read_joints(reader: SceneReader, root: Node, model: Model, basin: Basin | None) -> None:
