@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from .optional import module
+from .post.view_fields import shells_that_deform
 
 
 def show(state: Any, field: str = "speed", file: str | PathLike[str] | None = None) -> Any:
@@ -26,7 +27,7 @@ def show(state: Any, field: str = "speed", file: str | PathLike[str] | None = No
         ball = pyvista.Sphere(radius=0.56 * float(size), theta_resolution=10, phi_resolution=10)
         plotter.add_mesh(cloud.glyph(geom=ball, scale=False, orient=False), scalars=field, cmap="viridis")
     for mesh in state.elements:
-        rigid = np.asarray(mesh["shell_thickness"]) <= 0 if "shell_thickness" in mesh.names else np.zeros(len(mesh.cells), dtype=bool)
+        rigid = ~shells_that_deform(mesh) & ("solids" not in mesh.path.name)
         for some, opacity in ((rigid, 0.25), (~rigid, 1.0)):
             if some.any():
                 plotter.add_mesh(mesh.pyvista().extract_cells(np.flatnonzero(some)), color="lightgrey", opacity=opacity, show_edges=opacity == 1.0)

@@ -139,6 +139,12 @@ class Faces:
         return np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
 
 
+def shells_that_deform(mesh: Any) -> np.ndarray:
+    """Which cells are shells that deform, (cells,) of bool: the thickness of their section is 0 of rigid ones."""
+    name = next((name for name in mesh.names if name.endswith("_thickness")), "")
+    return np.asarray(mesh[name]) > 0 if name else np.zeros(len(mesh.cells), dtype=bool)
+
+
 def faces_of(mesh: Any) -> Faces:
     """The faces of a .vtu file that can be seen: inner faces between solids are left out."""
     cells = mesh.cells
@@ -156,7 +162,7 @@ def faces_of(mesh: Any) -> Faces:
                 solid.append(kind in _SOLID_TYPES)
     table, owner, inside = np.array(corners, dtype=int).reshape(-1, 4), np.array(cell, dtype=int), np.array(solid, dtype=bool)
     part = mesh["part"] if "part" in mesh.names else np.zeros(len(cells))
-    thick = np.asarray(mesh["shell_thickness"]) > 0 if "shell_thickness" in mesh.names else np.zeros(len(cells), dtype=bool)  # 0 of rigid shells
+    thick = shells_that_deform(mesh)
     empty = np.empty(0)
     out = Faces(mesh.points, table, owner, np.asarray(part)[owner] if len(owner) else empty, inside, thick[owner] | inside if len(owner) else empty.astype(bool))
     if inside.any():
