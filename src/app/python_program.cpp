@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 /// The folder that holds the package; empty if there is none.
 fs::path package_folder(const fs::path& executable) {
   const fs::path beside = executable.parent_path();
-  for (const fs::path& folder : {beside / "python", beside / ".." / "share" / "courant" / "python"}) {
+  // of a build, installed, within the package of a wheel
+  for (const fs::path& folder :
+       {beside / "python", beside / ".." / "share" / "courant" / "python", beside / ".." / ".."}) {
     std::error_code unreadable;
     if (fs::exists(folder / "courant" / "__main__.py", unreadable))
       return fs::weakly_canonical(folder, unreadable);

@@ -14,7 +14,7 @@ import pytest
 from courant.optional import MissingModule
 
 PROJECT = Path(__file__).resolve().parents[2]
-SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 4}  # pages with Python, and how many pieces of it this file runs
+SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 6}  # pages with Python, and how many pieces of it this file runs
 
 
 def pieces(page: str) -> list[str]:
@@ -99,6 +99,63 @@ def test_the_call_of_the_first_page(runs):
     assert re.fullmatch(r"\d+\.\d+ kg m2/s2 \(\d+, 3\)\n", done.stdout), done.stdout + done.stderr
 
 
+def test_a_part_that_deforms(tmp_path, monkeypatch, capsys):
+    if "COURANT_EXECUTABLE" not in os.environ:
+        pytest.skip("COURANT_EXECUTABLE names no program")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(pieces("docs/scenes_in_python.md")[1], names)  # noqa: S102
+    assert names["run"].verdict == "sound" and abs(names["end"]["displacement.x"].max() / 0.0491 - 1) < 0.01  # as the page says
+    assert Path("plate.png").stat().st_size > 5000
+
+
+PLATES = """*KEYWORD
+*PARAMETER
+R       dx      0.01
+*CONTROL_TERMINATION
+       1.0
+*PART
+lower
+         1         1         3
+*PART
+upper
+         2         1         3
+*SECTION_SHELL
+         1         2       1.0         3
+       &dx       &dx       &dx       &dx
+*MAT_ELASTIC
+         3    2700.0     2.e10       0.3
+*MAT_PLASTIC_KINEMATIC
+         4    7850.0   2.1e+11       0.3     2.5e8
+*NODE
+       1             0.0             0.0             0.0
+       2             1.0             0.0             0.0
+       3             1.0             1.0             0.0
+       4             0.0             1.0             0.0
+       5             0.0             0.0             2.0
+       6             1.0             0.0             2.0
+       7             1.0             1.0             2.0
+       8             0.0             1.0             2.0
+*ELEMENT_SHELL
+       1       1       1       2       3       4
+       2       2       5       6       7       8
+*END
+"""
+
+
+def test_a_deck_is_changed(tmp_path, monkeypatch):
+    if "COURANT_EXECUTABLE" not in os.environ:
+        pytest.skip("COURANT_EXECUTABLE names no program")
+    monkeypatch.chdir(tmp_path)
+    Path("plate.k").write_text(PLATES)
+    names = {"courant": courant}
+    exec(pieces("docs/scenes_in_python.md")[2].replace("until=0.1", "until=0.001, quiet=True"), names)  # noqa: S102
+    deck = names["deck"]
+    assert deck["MAT_ELASTIC"]["E"] == 70e9 and deck.parts[2]["MID"] == 4 and deck.parameters["dx"] == 0.005
+    written = courant.Deck("thicker/plate.k")
+    assert written.points[:, 2].tolist() == [0, 0, 0, 0, 2.1, 2.1, 2.1, 2.1] and "DATABASE_GLSTAT" in written and names["run"].termination == "normal"
+
+
 def test_steps_callbacks_sweeps_and_ctrl_c(tmp_path, monkeypatch, capsys):
     from courant.native import native
 
@@ -109,7 +166,7 @@ def test_steps_callbacks_sweeps_and_ctrl_c(tmp_path, monkeypatch, capsys):
     scene.water(low=(0, 0), high=(1.2, 0.4)).box(low=(0, 0), high=(2, 0.8))
     scene.body(box={"low": (1.4, 0.1), "high": (1.6, 0.3)}, density=500, title="house")
     names = {"courant": courant, "scene": scene}
-    _, steps, sweep, ctrl_c = pieces("docs/scenes_in_python.md")
+    _, _, _, steps, sweep, ctrl_c = pieces("docs/scenes_in_python.md")
     exec(steps, names)  # noqa: S102
     assert names["state"].t > 0 and courant.open("towed").states[-1].t == pytest.approx(0.05, rel=0.1)
     exec(sweep.replace("[20, 40, 80]", "[4, 8]"), names)  # noqa: S102

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -145,7 +146,7 @@ class TestFaces:
 
     def test_outlines_are_edges_alone(self):
         x = np.array([[i, j, 0] for i in range(3) for j in range(2)], dtype=float)  # two squares in a plane
-        flat = Faces(x, np.array([[0, 2, 3, 1], [2, 4, 5, 3]]), np.arange(2), np.zeros(2), np.zeros(2, dtype=bool))
+        flat = Faces(x, np.array([[0, 2, 3, 1], [2, 4, 5, 3]]), np.arange(2), np.zeros(2), np.zeros(2, dtype=bool), np.zeros(2, dtype=bool))
         assert sorted(map(tuple, outlines(flat).tolist())) == [(0, 1), (0, 2), (1, 3), (2, 4), (3, 5), (4, 5)]
         flat.x[4:, 2] = 1  # a fold of 45 degrees is seen
         assert (2, 3) in set(map(tuple, outlines(flat).tolist()))
@@ -428,3 +429,32 @@ class TestRecipe:
         said, diagnostics = [], Diagnostics()
         assert run_post(tmp_path / "R", cubes.folder, said.append, diagnostics), diagnostics.text()
         assert "bar.png" in "".join(said)
+
+
+def test_a_window_draws_off_the_screen(tmp_path: Path) -> None:
+    pytest.importorskip("pyvista", reason="pyvista is missing")
+    if not os.environ.get("COURANT_EXECUTABLE"):
+        pytest.skip("needs the program")
+
+    scene = courant.Scene("drop", spacing=0.1, end=0.02).water(low=(0, 0), high=(0.4, 0.4)).box(low=(0, 0), high=(1, 1), open=["top"])
+    scene.run(tmp_path / "out", threads=1, quiet=True).states[-1].show("pressure", tmp_path / "window.png")
+    assert (tmp_path / "window.png").stat().st_size > 5000
+
+
+def test_bodies_are_opaque_and_the_walls_around_the_water_are_not() -> None:
+    from courant.post.view_fields import Faces, joined_faces
+    from courant.post.view_space import bodies_among
+    from courant.scene import shapes
+
+    def part(number: int, low: float, high: float, faces: slice, deforms: bool = False) -> Faces:
+        made = shapes.box(np.full(3, low), np.full(3, high), 3)
+        corners = np.column_stack([made.faces, made.faces[:, 2]])[faces]
+        flags = np.full(len(corners), deforms)
+        return Faces(made.points, corners, np.arange(len(corners)), np.full(len(corners), number), np.zeros(len(corners), dtype=bool), flags)
+
+    x = np.random.default_rng(1).uniform(0, 1, (100, 3)) * [1, 1, 0.5]
+    tank, house, fence, plate = part(1, 0, 1, slice(None)), part(2, 0.7, 0.8, slice(None)), part(3, 0.1, 0.2, slice(2)), part(4, 0.3, 0.4, slice(2), deforms=True)
+    walls = joined_faces([tank, house, fence, plate])
+    assert walls is not None
+    seen = {int(number): bool(bodies_among(walls, x)[walls.part == number].all()) for number in np.unique(walls.part)}
+    assert seen == {1: False, 2: True, 3: False, 4: True}

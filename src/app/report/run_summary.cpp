@@ -1,6 +1,7 @@
 #include "app/report/run_summary.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -33,6 +34,24 @@ std::vector<std::string> idle_contacts(Simulation& s) {
   return out;
 }
 
+/// Particles beyond the box of all nodes by more than its largest side: they fell past the walls.
+std::int64_t outside_scene(const World& world) {
+  if (world.nodes.size() == 0 || world.energy.potential == 0) return 0;
+  Vec low = Vec::Constant(std::numeric_limits<Real>::max());
+  Vec high = -low;
+  for (Index i = 0; i < world.nodes.size(); ++i) {
+    low = low.cwiseMin(world.nodes.x.vec(i));
+    high = high.cwiseMax(world.nodes.x.vec(i));
+  }
+  const Real margin = (high - low).head(world.dim).maxCoeff();
+  std::int64_t out = 0;
+  for (Index i = 0; i < world.particles.active; ++i) {
+    const Vec x = world.particles.x.vec(i);
+    out += ((x - high).head(world.dim).maxCoeff() > margin || (low - x).head(world.dim).maxCoeff() > margin);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<UnitNames> units_of(const Simulation& s) {
@@ -54,6 +73,8 @@ void note_end(Summary& y, Simulation& s) {
   y.maxima = world.maxima;
   y.leaked_particles = y.counters.contains("leaked_particles") ? y.counters.at("leaked_particles") : 0;
   y.max_penetration = y.maxima.contains("max_penetration") ? y.maxima.at("max_penetration") : 0;
+  if (const std::int64_t outside = outside_scene(world); outside > 0)
+    y.counters["outside_the_scene"] = outside;
   if (!std::isfinite(y.dt_min)) y.dt_min = 0;
   y.notes = idle_contacts(s);
   if (s.has_particles()) y.counters["neighbour_rebuilds"] = s.neighbours().rebuilds();

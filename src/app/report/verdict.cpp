@@ -180,6 +180,19 @@ void add_leaks(const Summary& s, std::vector<Finding>& out) {
                    s.leaked_particles, s.leaked_particles == 1 ? "" : "s", 100 * part)});
 }
 
+/// Particles that left the scene, as through a gap between walls, which no wall sees.
+void add_outside(const Summary& s, std::vector<Finding>& out) {
+  const std::int64_t outside = counted(s, "outside_the_scene");
+  if (outside <= 0) return;
+  const Real part =
+      static_cast<Real>(outside) / static_cast<Real>(std::max<std::int64_t>(s.particles, outside));
+  if (!(part > s.limits.leaks_broken)) return;
+  out.push_back({false, fmt::format("{} particle{} left the scene, {:.2g} % of all: farther from all nodes "
+                                    "than these reach; look for a gap between walls or an edge that is too "
+                                    "low, or end the scene there (BOXID of *CONTROL_SPH)",
+                                    outside, outside == 1 ? "" : "s", 100 * part)});
+}
+
 /// Hourglass energy below this share of all that the scene is about does no harm.
 constexpr Real least_hourglass = 1e-3;
 /// Internal energy below this share is negligible, in blocks that fall or slide: hourglass energy is judged
@@ -238,6 +251,7 @@ std::vector<Finding> findings(const Summary& s) {
   std::vector<Finding> out;
   if (s.termination == "error") out.push_back({true, s.reason});
   add_leaks(s, out);
+  add_outside(s, out);
   add_leaked(s, "node", "a face", out);
   add_leaked(s, "edge", "another", out);
   add_held(s, out);

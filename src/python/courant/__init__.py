@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING
 from .optional import lazily
 
 if TYPE_CHECKING:
+    from .deck.deck import Deck
     from .diagnostics import CourantError
+    from .preview import preview
     from .results import Results, open
     from .running import Run, RunFailed, check, run
     from .live import LiveState
@@ -21,8 +23,8 @@ if TYPE_CHECKING:
     from .tables import Table
     from .units import Units
 
-__all__ = ["CourantError", "LiveState", "Results", "Run", "RunFailed", "Scene", "Steps", "Table", "Units", "check", "open", "run", "steps", "sweep"]
+__all__ = ["CourantError", "Deck", "LiveState", "Results", "Run", "RunFailed", "Scene", "Steps", "Table", "Units", "check", "open", "preview", "run", "steps", "sweep"]
 # so that the calls start before numpy is there, and can tell where it is missing
-__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".results": ["Results", "open"],
+__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".deck.deck": ["Deck"], ".results": ["Results", "open"],
                                 ".running": ["Run", "RunFailed", "check", "run"], ".live": ["LiveState"], ".scene.scene": ["Scene"], ".stepping": ["Steps", "steps"],
-                                ".sweeping": ["sweep"], ".tables": ["Table"], ".units": ["Units"]})
+                                ".preview": ["preview"], ".sweeping": ["sweep"], ".tables": ["Table"], ".units": ["Units"]})

@@ -15,6 +15,8 @@ _PACKAGES = {
     "xarray": "python3-xarray",
     "pyvista": "pip install pyvista",
     "vtkmodules": "python3-vtk9",
+    "meshio": "pip install meshio",
+    "gmsh": "pip install gmsh",
 }
 
 

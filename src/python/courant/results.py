@@ -223,6 +223,12 @@ class RunState(Mesh):
         writes it to `file`. Raises MissingModule, KeyError with the names there are."""
         return self._run.plot(field=field, t=self.t, file=file, **keys)
 
+    def show(self, field: str = "speed", file: str | Path | None = None) -> Any:
+        """A window of PyVista that turns with the mouse, see courant.window.show. Raises MissingModule, KeyError with the names there are."""
+        from .window import show
+
+        return show(self, field, file)
+
 
 class States(Sequence[RunState]):
     """The states of a run in order of time; each is read when it is asked for."""
@@ -433,6 +439,16 @@ class Results:
         """What each gauge measured over its own times, by the gauge's name; empty where a run has no gauges."""
         names = [group.partition("/")[2] for group in self.histories.groups if group.startswith("gauges/")]
         return Named("gauge", {name: self.histories.table(f"gauges/{name}") for name in names})
+
+    def track(self, point: Sequence[float]) -> Table:
+        """Motion over time of the node with a history that is nearest to a point at the start, in the plane of two components [L]: displacement.x,
+        v.x, a.x, x.x and so on. Raises KeyError where no node has one."""
+        groups = [group for group in self.histories.groups if re.fullmatch(r"nodes/\d+", group)]
+        if not groups:
+            raise KeyError("the run has no histories of nodes: track=[point] of a deformable part, or *DATABASE_HISTORY_NODE and *DATABASE_NODOUT")
+        first = np.array([self.histories[f"{group}/x"][0] - self.histories[f"{group}/displacement"][0] for group in groups])
+        nearest = int(np.argmin(np.linalg.norm((first - [*point, 0.0][:3])[:, : len(point)], axis=1)))
+        return self.histories.table(groups[nearest])
 
     def table(self, name: str) -> Table:
         """ "energies", a group of history.h5 ("contacts/1"), the name of a gauge, or an ASCII history ("glstat")."""

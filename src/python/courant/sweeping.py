@@ -10,6 +10,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
+from .deck.deck import Deck
 from .diagnostics import CourantError, Diagnostics
 from .files import make_folder, write_file
 from .optional import MissingModule, module
@@ -28,7 +29,7 @@ class MeasureFailed(CourantError):
     """An exception in `measure`, which is its `__cause__`."""
 
 
-def sweep(what: Scene | str | PathLike[str], values: Mapping[str, Sequence[Any]], folder: str | PathLike[str] = "sweep", *, jobs: int = 1,
+def sweep(what: Scene | Deck | str | PathLike[str], values: Mapping[str, Sequence[Any]], folder: str | PathLike[str] = "sweep", *, jobs: int = 1,
           measure: Measure | None = None, threads: int = 1, until: float | None = None, say: Callable[[str], object] | None = print) -> Any:
     """Runs a scene, a scene in YAML or a deck with all combinations of `values` of its parameters, `jobs` at once, each in a folder of its own in `folder`.
 
@@ -39,6 +40,9 @@ def sweep(what: Scene | str | PathLike[str], values: Mapping[str, Sequence[Any]]
     fails, with the parameters of that run.
     """
     check_options(until=until, threads=threads)
+    if isinstance(what, Deck):
+        make_folder(Path(folder))
+        what = what.write(Path(folder, what.path.name))
     names, lists = _lists(values)
     combinations = [dict(zip(names, chosen)) for chosen in itertools.product(*lists)]
     _check(what, names, combinations, folder)

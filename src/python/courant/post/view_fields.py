@@ -114,19 +114,20 @@ def field_of(mesh: Any, name: str) -> FieldValues:
 @dataclass
 class Faces:
     """Faces of shells, and those of solids that no other solid shares. `x`: (points, 3) [L]; `corners`: (faces, 4), of triangles the last
-    one twice; `cell`: (faces,) the cell of each; `part`: (faces,); `solid`: (faces,) of bool."""
+    one twice; `cell`: (faces,) the cell of each; `part`: (faces,); `solid`, `deforms`: (faces,) of bool."""
 
     x: np.ndarray
     corners: np.ndarray
     cell: np.ndarray
     part: np.ndarray
     solid: np.ndarray
+    deforms: np.ndarray
 
     def __len__(self) -> int:
         return len(self.corners)
 
     def part_of(self, taken: np.ndarray) -> Faces:
-        return Faces(self.x, self.corners[taken], self.cell[taken], self.part[taken], self.solid[taken])
+        return Faces(self.x, self.corners[taken], *(one[taken] for one in (self.cell, self.part, self.solid, self.deforms)))
 
     def normals(self) -> np.ndarray:
         """Unit normals, (faces, 3), 0 of faces without area."""
@@ -136,6 +137,12 @@ class Faces:
         normal[triangle] = np.cross(b - a, c - a)[triangle]
         length = np.sqrt((normal**2).sum(axis=1, keepdims=True))
         return np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+
+
+def shells_that_deform(mesh: Any) -> np.ndarray:
+    """Which cells are shells that deform, (cells,) of bool: the thickness of their section is 0 of rigid ones."""
+    name = next((name for name in mesh.names if name.endswith("_thickness")), "")
+    return np.asarray(mesh[name]) > 0 if name else np.zeros(len(mesh.cells), dtype=bool)
 
 
 def faces_of(mesh: Any) -> Faces:
@@ -155,7 +162,9 @@ def faces_of(mesh: Any) -> Faces:
                 solid.append(kind in _SOLID_TYPES)
     table, owner, inside = np.array(corners, dtype=int).reshape(-1, 4), np.array(cell, dtype=int), np.array(solid, dtype=bool)
     part = mesh["part"] if "part" in mesh.names else np.zeros(len(cells))
-    out = Faces(mesh.points, table, owner, np.asarray(part)[owner] if len(owner) else np.empty(0), inside)
+    thick = shells_that_deform(mesh)
+    empty = np.empty(0)
+    out = Faces(mesh.points, table, owner, np.asarray(part)[owner] if len(owner) else empty, inside, thick[owner] | inside if len(owner) else empty.astype(bool))
     if inside.any():
         _, first, times = np.unique(np.sort(table, axis=1), axis=0, return_inverse=True, return_counts=True)
         out = out.part_of(~inside | (times[first] == 1))
@@ -169,7 +178,7 @@ def joined_faces(some: list[Faces]) -> Faces | None:
         return some[0] if some else None
     points = np.cumsum([0, *(len(one.x) for one in some[:-1])])
     corners = np.concatenate([one.corners + begin for one, begin in zip(some, points, strict=True)])
-    rest = (np.concatenate([getattr(one, key) for one in some]) for key in ("cell", "part", "solid"))
+    rest = (np.concatenate([getattr(one, key) for one in some]) for key in ("cell", "part", "solid", "deforms"))
     return Faces(np.concatenate([one.x for one in some]), corners, *rest)
 
 
@@ -198,6 +207,6 @@ def mirrored(faces: Faces, axis: int) -> Faces:
     triangle = faces.corners[:, 2] == faces.corners[:, 3]
     turned = faces.corners[:, [1, 0, 3, 2]]
     turned[triangle] = faces.corners[triangle][:, [1, 0, 2, 2]]
-    both = [np.concatenate((one, one)) for one in (faces.cell, faces.part, faces.solid)]
+    both = [np.concatenate((one, one)) for one in (faces.cell, faces.part, faces.solid, faces.deforms)]
     x = faces.x * np.where(np.arange(3) == axis, -1, 1)
     return Faces(np.concatenate((faces.x, x)), np.concatenate((faces.corners, turned + len(faces.x))), *both)

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..optional import module
 from .particles import ParticleSet, SprayRule, spline_norm, spline_shape, water_body, water_on_lines
+from .view_fields import Faces
 from .view_scene import Scene, View
 
 _WALL = {"edgecolor": "black", "linewidth": 1.6, "capstyle": "butt", "fill": False}
@@ -80,11 +81,16 @@ def _closed(wet: np.ndarray, radius: float) -> np.ndarray:
     return wet | back[edge:-edge, edge:-edge]
 
 
+def _sections(walls: Faces) -> np.ndarray:
+    """Which faces, those of solids, are seen from in front, (faces,)."""
+    return np.abs(walls.normals()[:, 2]) > 0.5
+
+
 def wall_traces(scene: Scene) -> np.ndarray:
     """Sides of the walls as seen along z, the longest of each face; (faces, 2, 2) [L]."""
     if scene.walls is None:
         return np.empty((0, 2, 2))
-    corners = scene.walls.x[scene.walls.corners][:, :, :2]
+    corners = scene.walls.x[scene.walls.corners[~_sections(scene.walls)]][:, :, :2]
     sides = np.stack((corners, np.roll(corners, -1, axis=1)), axis=2)  # (faces, 4, 2, 2)
     length = np.hypot(*np.moveaxis(sides[:, :, 1] - sides[:, :, 0], -1, 0))
     return sides[np.arange(len(sides)), length.argmax(axis=1)]
@@ -130,6 +136,9 @@ def draw_plane(axes: Any, scene: Scene, view: View, window: tuple[float, ...], l
     look = {"cmap": view.colours, "vmin": limits[0], "vmax": limits[1], "interpolation": "nearest", "aspect": "equal"}
     axes.imshow(np.ma.masked_invalid(field), origin="lower", extent=window, **look)
     if view.walls != "none":
+        if scene.walls is not None and (front := _sections(scene.walls)).any():
+            solids = scene.walls.x[scene.walls.corners[front]][:, :, :2]
+            axes.add_collection(module("matplotlib.collections").PolyCollection(list(solids), facecolors="0.7", edgecolors="0.7", linewidths=0.5))
         traces, path = wall_traces(scene).reshape(-1, 2), module("matplotlib.path").Path
         stroke = path(traces, np.tile([path.MOVETO, path.LINETO], len(traces) // 2))  # one stroke: its pieces do not darken each other
         axes.add_patch(module("matplotlib.patches").PathPatch(stroke, snap=True, **_WALL))

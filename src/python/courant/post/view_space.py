@@ -58,11 +58,36 @@ def _patches(walls: Faces, camera: Camera) -> list[np.ndarray]:
     return sorted(groups, key=lambda faces: float(toward[faces].mean()))
 
 
+def bodies_among(walls: Faces, x: np.ndarray) -> np.ndarray:
+    """Faces that are drawn opaque, (faces,): of solids, of shells that deform, and of closed rigid shells that do not hold most of the particles x (n, 3)."""
+    out = walls.deforms.copy()
+    for part in np.unique(walls.part[~out]):
+        mine = np.flatnonzero((walls.part == part) & ~out)
+        sides = np.sort(np.concatenate([walls.corners[mine][:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+        _, number = np.unique(walls.x, axis=0, return_inverse=True)  # shells need not share their nodes
+        sides = np.sort(number.ravel()[sides[sides[:, 0] != sides[:, 1]]], axis=1)
+        _, count = np.unique(sides, axis=0, return_counts=True)
+        points = walls.x[walls.corners[mine]].reshape(-1, 3)
+        within = ((x >= points.min(axis=0)) & (x <= points.max(axis=0))).all(axis=1)
+        out[mine] = bool((count == 2).all()) and within.sum() < 0.5 * max(len(x), 1)
+    return out
+
+
+def _draw_bodies(raster: Raster, scene: Scene, view: View, camera: Camera) -> None:
+    if scene.walls is None or view.walls != "transparent":
+        return
+    bodies = scene.walls.part_of(bodies_among(scene.walls, scene.x))
+    if len(bodies):
+        colour = np.broadcast_to(_GREY, (len(bodies), 4, 3))
+        raster.faces(camera.project(bodies.x), bodies.corners, colour, camera.turned(bodies.normals()), False)
+
+
 def _veils(raster: Raster, scene: Scene, view: View, camera: Camera) -> None:
     if scene.walls is not None and view.walls == "transparent":
-        uvw = camera.project(scene.walls.x)
-        for patch in _patches(scene.walls, camera):
-            raster.veil(uvw, scene.walls.corners[patch], _GREY, 0.10)
+        walls = scene.walls.part_of(~bodies_among(scene.walls, scene.x))
+        uvw = camera.project(walls.x)
+        for patch in _patches(walls, camera) if len(walls) else ():
+            raster.veil(uvw, walls.corners[patch], _GREY, 0.10)
 
 
 def _outline(raster: Raster, scene: Scene, view: View, camera: Camera) -> list[tuple[np.ndarray, bool]]:
@@ -99,6 +124,7 @@ def render(scene: Scene, view: View, camera: Camera, frame: tuple[float, ...], l
         radius = 0.56 * size  # a little more than touching, so that no gaps show
         raster.spheres(camera.project(scene.x), radius * camera.enlarged(scene.x), colours_of(scene.values, low, high, view.colours))
         thick = 2.5 * float(np.median(size))
+    _draw_bodies(raster, scene, view, camera)
     raster.shadows(thick)
     _veils(raster, scene, view, camera)
     return Picture(np.clip(raster.smaller(_FINER), 0, 1), _outline(raster, scene, view, camera))

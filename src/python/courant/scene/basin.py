@@ -13,6 +13,8 @@ from .model import Model, Part, PlaceExpression, Plate, Variables, Vector
 from .numbers import number_text
 from .placeholders import substitute
 from .solids import Solid, cards_of_solids, number_parts, part_of
+from .openings import Inlet, Outlet, add_openings, with_outlets
+from .structures import Structure, add_structures
 
 WATER_PART, WALL_PART = 1, 11
 
@@ -131,6 +133,9 @@ class Basin:
     fills: list[tuple[Any, Any]] = field(default_factory=list)  # shapes that are filled with water, and their entries
     solids: list[Solid] = field(default_factory=list)
     thin: str = ""  # why walls have no ghost particles
+    structures: list[Structure] = field(default_factory=list)  # parts that deform
+    inlets: list[Inlet] = field(default_factory=list)
+    outlets: list[Outlet] = field(default_factory=list)
     method: str = "contact"  # how walls act on the water: by contact, as mirrors, by ghost particles, or mixed: box and bodies as mirrors, other walls by contact
 
     @property
@@ -154,6 +159,9 @@ class Basin:
                 low, high = self.box[0][k], self.box[1][k]  # type: ignore[index]
                 if block.low[k] < low - 1e-6 * self.spacing or corner[k] > high + 1e-6 * self.spacing:
                     return f"a block reaches from {block.low[k]:g} to {corner[k]:g} along {'xyz'[k]}, beyond the box from {low:g} to {high:g}"
+        for inlet in self.inlets:
+            top = max(top, float(inlet.at[up]) + inlet.size[-1])
+            bottom = min(bottom, float(inlet.at[up]))
         if len(self.open) == len(self.sides):
             return "a box with all sides open: leave it out"
         self.speed_given = self.sound_speed > 0
@@ -161,9 +169,10 @@ class Basin:
             return ""
         factor = 20.0  # a blow squeezes the liquid by speed / sound speed
         v = self.water.velocity or (0.0, 0.0, 0.0)
-        speed = math.sqrt(max(0.0, 2 * self.gravity * (top - bottom) + (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])))
-        if not speed > 0 or self.water.velocity_of_place:
-            return "'sound_speed' is missing: it follows only from gravity and one velocity of all the water; give twenty times the largest speed"
+        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets)]
+        speed = math.sqrt(max(0.0, 2 * self.gravity * (top - bottom) + max(squares)))
+        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula for inlet in self.inlets):
+            return "'sound_speed' is missing: it follows only from gravity, one velocity of all the water and steady inlets; give twenty times the largest speed"
         digits = math.pow(10, math.floor(math.log10(factor * speed)) - 1)  # two of them
         self.sound_speed = math.ceil(factor * speed / digits - 1e-9) * digits
         return ""
@@ -183,7 +192,13 @@ class Basin:
     @property
     def whole_depth(self) -> bool:
         """Walls of the plane are one unit deep, as bodies are whose mass counts per unit of depth."""
-        return self.mirrors or bool(self.solids)
+        return self.mirrors or bool(self.solids) or bool(self.structures)
+
+    def rigid_parts(self) -> dict[str, int]:
+        """Numbers of the parts of the box, walls and bodies by their titles, in this order."""
+        number_parts(self.solids)
+        box = {"walls": WALL_PART} if self.box and len(self.open) < len(self.sides) else {}
+        return box | {solid.shape.name: solid.part for solid in self.solids}
 
     @property
     def friction(self) -> float:
@@ -193,7 +208,7 @@ class Basin:
     def start(self) -> PlaceExpression | None:
         """Hydrostatic pressure of water at rest on the floor of its box, all of it with one surface."""
         up, dx = self.dim - 1, self.spacing
-        if not self.mirrors or self.gravity == 0 or not self.box or self.water.velocity or self.water.velocity_of_place:
+        if not self.mirrors or self.gravity == 0 or not self.box or not self.water.lattices or self.water.velocity or self.water.velocity_of_place:
             return None
         tops = [min(one.low[up] + dx * one.n[up], float(one.solids[0].shape.high[up]) if one.solids else math.inf) for one in self.water.lattices]
         if max(tops) - min(tops) > 1e-6 * dx or min(one.low[up] for one in self.water.lattices) > self.box[0][up] + dx / 2:
@@ -228,11 +243,12 @@ def add_basin(basin: Basin, model: Model) -> None:
     variables = basin.variables()
     water = basin.water
     water.id, water.title = WATER_PART, "water"
+    water.empty = bool(basin.inlets)
     water.section = water.material = water.eos = water.hourglass = 1
     if not water.pressure:
         water.pressure = basin.start()
     model.parts.append(water)
-    model.keywords.append(substitute(_CARDS, variables))
+    model.keywords.append(with_outlets(substitute(_CARDS, variables), basin))
     if basin.gravity > 0:
         model.keywords.append(substitute(_GRAVITY.format(axis="Y" if basin.dim == 2 else "Z"), variables))
     walls = basin.walls() if basin.box else None
@@ -245,4 +261,7 @@ def add_basin(basin: Basin, model: Model) -> None:
         model.keywords += cards_of_solids(basin, walls if walls and walls.plates else None)
     elif basin.box:
         model.keywords.append(_SHELLS + substitute(_FIXED + _BOX, variables))
+    rigid = [part.id for part in model.parts if part.id != WATER_PART]
+    add_openings(basin, model)
     explain_basin(basin, model)
+    add_structures(basin, model, rigid)

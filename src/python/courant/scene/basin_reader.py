@@ -8,16 +8,19 @@ import numpy as np
 from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
+from .joints import joined_names
 from .model import MOST_ENTITIES, Lattice, Model, Near
+from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
+from .structure_reader import read_structures
 from .water_checks import check_overlaps, check_piston
 from .wave_reader import Piston, check_reach, read_waves
 
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
-_GOES_WITH_WATER = ("box", "walls", "bodies", "wall_method", "gravity", "end", "output")
+_GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
 MOST_MIRRORS = 12  # lines of a shape in the plane
 REACH = 3.6  # spacings: nearly what the kernel reaches
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
@@ -27,16 +30,24 @@ class BasinReader(ShapeReader):
     def __init__(self, path: str, overrides: Mapping[str, str], diagnostics: Diagnostics) -> None:
         super().__init__(path, overrides, diagnostics)
         self.pistons: list[Piston] = []  # in the order of the scene
+        self.of_inlets = 0  # dimensions of the scene by its first inlet
+        self.basin: Basin | None = None
 
     def read_basin(self, root: Node, model: Model) -> None:
         water = self.get(root, "water")
+        if (spacing := self.get(root, "spacing")) is not None:
+            self.error(spacing, "'spacing' of the scene is that of gases; of water it is under 'water'", "water: {spacing: 0.01, blocks: [...]}")
         if water is None:
             for key in _GOES_WITH_WATER:
                 if (entry := self.get(root, key)) is not None:
                     self.error(entry, f"'{key}' goes with 'water', which the scene has not")
             return
         before = self.diagnostics.errors
-        basin = self.read_water(water)
+        inlets = self.get(root, "inlets")
+        first = inlets.value[0] if inlets is not None and is_list(inlets) and inlets.value else None
+        at = self.get(first, "at") if first is not None else None
+        self.of_inlets = len(at.value) if at is not None and is_list(at) and len(at.value) in (2, 3) else 0
+        basin = self.basin = self.read_water(water)
         if (gravity := self.get(root, "gravity")) is not None:
             basin.gravity = self.number(gravity, "gravity") or 0.0
             if basin.gravity < 0:
@@ -47,12 +58,15 @@ class BasinReader(ShapeReader):
             self.read_box(box, basin)
         if self.diagnostics.errors == before:
             self.read_solids(root, basin)
+            read_structures(self, root, basin)
+            read_openings(self, root, basin)
             self.read_method(root, basin)
+            check_inlets(self, basin)
         if self.diagnostics.errors == before:
             self.fill(basin)
             self.check_solids(basin)
             self.check_water(basin)
-            self.check_bodies_of_the_plane(basin)
+            self.check_bodies_of_the_plane(basin, joined_names(self, root))
         if self.diagnostics.errors > before:
             return
         if fault := basin.complete():
@@ -81,6 +95,9 @@ class BasinReader(ShapeReader):
             basin.water.pressure = self.of_place(pressure, "pressure")
         basin.spacing = self.length(node, "spacing")
         blocks, bodies = self.get(node, "blocks"), self.get(node, "bodies")
+        if blocks is None and bodies is None and self.of_inlets:
+            basin.dim = self.dim = self.of_inlets
+            return basin
         if bodies is None and (blocks is None or not is_list(blocks) or not blocks.value):
             self.error(node if blocks is None else blocks, "water: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z")
             return basin
@@ -184,10 +201,12 @@ class BasinReader(ShapeReader):
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
 
-    def check_bodies_of_the_plane(self, basin: Basin) -> None:
-        """Bodies of the plane touch no wall: one that sinks would leave the box unseen."""
+    def check_bodies_of_the_plane(self, basin: Basin, joined: set[str]) -> None:
+        """Bodies of the plane touch no wall: one that sinks and has no joint would leave the box unseen."""
+        basin.rigid_parts()  # numbers them
         held = basin.box is not None or any(not solid.free for solid in basin.solids)
-        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold), None)
+        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold
+                        and not {solid.shape.name, str(solid.part)} & joined), None)
         if basin.dim == 2 and held and falling is not None:
             self.diagnostics.warning(falling.where, f"'{falling.shape.name or 'a body'}' passes through walls and falls through the floor: bodies of the plane "
                                      "do not touch walls", "only the water acts on it; a scene in space has this contact, and hold: [x, y] keeps a body")
@@ -281,6 +300,7 @@ class BasinReader(ShapeReader):
         # contact acts at half a spacing; before ghosts at 0.2, so that points of the lattice on both sides of a wall are water or ghosts
         gap = 0.25 if basin.method == "ghosts" else 0.5
         out = [Near(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
+        out += [one.keeps_out(basin.dim, dx) for one in basin.structures]
         for lattice in basin.water.lattices:
             lattice.without = out
 

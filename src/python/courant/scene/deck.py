@@ -20,7 +20,7 @@ class Placed:
     first: int
     nodes: list[list[Axis]] = field(default_factory=list)  # groups of x, y, z
     masses: list[tuple[int, float]] = field(default_factory=list)  # particles of each group, and their MASS field
-    shells: np.ndarray = field(default_factory=lambda: np.zeros((0, 4), dtype=int))  # ids of their nodes
+    shells: np.ndarray = field(default_factory=lambda: np.zeros((0, 4), dtype=int))  # ids of their nodes, eight of solids
     first_shell: int = 1
 
     def size(self) -> int:
@@ -56,7 +56,7 @@ def _place_plates(part: Part, placed: Placed) -> None:
     groups: list[np.ndarray] = []
     shells: list[np.ndarray] = []
     count = 0
-    for plate in part.plates:
+    for plate in part.plates or part.solids:
         points = plate.nodes()
         if merger:
             ids = merger.numbers(points)
@@ -90,9 +90,10 @@ class Placer:
             # MASS > 0 is a mass, < 0 a volume
             self._compare(part, lattice, placed.size() - placed.particles())
             placed.masses.append((placed.size() - placed.particles(), part.density * lattice.volume if part.density > 0 else -lattice.volume))
-        if not part.plates and not placed.particles() and self.diagnostics.ok:
+        meshed = bool(part.plates or part.solids)
+        if not meshed and not placed.particles() and not part.empty and self.diagnostics.ok:
             self.diagnostics.error(part.where, f"part {part.id} has no particles: 'where' leaves none", "a particle is kept where the expression is > 0")
-        if part.plates:
+        if meshed:
             _place_plates(part, placed)
         self.node += placed.size()
         self.shell += len(placed.shells)
@@ -112,11 +113,11 @@ class Placer:
                                      "a finer spacing follows the shape more closely")
 
     def _start_at(self, part: Part) -> None:
-        if part.first_id < self.node or (part.plates and part.first_id < self.shell):
+        if part.first_id < self.node or ((part.plates or part.solids) and part.first_id < self.shell):
             self.diagnostics.error(part.where, f"part {part.id}: ids from {part.first_id} on are taken by the parts above",
                                    f"first_id: {max(self.node, self.shell)} or more is free")
         self.node = part.first_id
-        if part.plates:
+        if part.plates or part.solids:
             self.shell = part.first_id
 
 
@@ -191,10 +192,23 @@ def _parts_text(parts: list[Part]) -> str:
     return out
 
 
+def _held_nodes(part: Part, placed: Placed) -> str:
+    """Nodes that are held, or that go with a rigid part, and those with a history."""
+    out = ""
+    if len(part.fixed) and part.fixed_to:
+        out += "*CONSTRAINED_EXTRA_NODES_NODE\n" + _heading(("pid", "nid"), 10) + "".join(f"{part.fixed_to:10}{placed.first + k:10}\n" for k in part.fixed)
+    elif len(part.fixed):
+        out += "*BOUNDARY_SPC_NODE\n" + _heading(("nid", "cid", "dofx", "dofy", "dofz", "dofrx", "dofry", "dofrz"), 10)
+        out += "".join(f"{placed.first + k:10}         0" + 6 * "         1" + "\n" for k in part.fixed)
+    if len(part.tracked):
+        out += "*DATABASE_HISTORY_NODE\n" + "".join(f"{placed.first + k:10}\n" for k in part.tracked)
+    return out
+
+
 def _initial_state(part: Part, placed: Placed, variables: Variables, out: list[bytes]) -> None:
     """Velocities and pressures of single particles, where they are expressions of the position: cards in long format, so that 13 digits fit. Raises
     Fault."""
-    if not part.velocity_of_place and not part.pressure:
+    if not placed.size() or (not part.velocity_of_place and not part.pressure):
         return
     points = [np.concatenate([group[k].all() for group in placed.nodes]) for k in range(3)]
     ids = whole_numbers(np.arange(placed.first, placed.first + len(points[0])), 20)
@@ -224,7 +238,8 @@ def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bo
     head = f"$ Written by {by}: change the scene, not this file.\n$ Parameters:\n"
     head += "".join(f"$   {parameter} = {number_text(value)}\n" for parameter, value in model.parameters) + "$ Parts:\n"
     for part, one in zip(model.parts, placed):
-        head += f"$   {part.id} {part.title}: " + (f"{one.particles()} particles\n" if one.particles() else f"{len(one.shells)} shells\n")
+        holds = f"{one.particles()} particles" if one.particles() else f"{len(one.shells)} {'solids' if part.solids else 'shells'}"
+        head += f"$   {part.id} {part.title}: {holds}\n"
     head += f"*KEYWORD\n*TITLE\n{model.title}\n"
     head += "".join(block if not block or block.endswith("\n") else block + "\n" for block in model.keywords)
     out = [(head + _parts_text(model.parts)).encode("utf-8", "surrogateescape")]
@@ -241,9 +256,12 @@ def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bo
         for count, mass in one.masses:
             out.append(_particle_lines(first, count, part.id, mass))
             first += count
-    if any(len(one.shells) for one in placed):
-        out.append(b"*ELEMENT_SHELL\n$#   eid     pid      n1      n2      n3      n4\n")
-    out += [_shell_lines(one.first_shell, part.id, one.shells) for part, one in zip(model.parts, placed) if len(one.shells)]
+    for kind, corners in (("SHELL", 4), ("SOLID", 8)):
+        meshed = [(part, one) for part, one in zip(model.parts, placed) if len(one.shells) and one.shells.shape[1] == corners]
+        if meshed:
+            out.append(f"*ELEMENT_{kind}\n$#   eid     pid{''.join(f'n{k}'.rjust(8) for k in range(1, corners + 1))}\n".encode())
+        out += [_shell_lines(one.first_shell, part.id, one.shells) for part, one in meshed]
+    out += [_held_nodes(part, one).encode() for part, one in zip(model.parts, placed)]
     try:
         for part, one in zip(model.parts, placed):
             _initial_state(part, one, model.variables, out)

@@ -136,7 +136,7 @@ def _part(reader: SceneReader, node: Node, model: Model, key: str) -> int:
             return number
         reader.error(node, f"{key}: the scene has no part '{text}'",
                      f"{did_you_mean(text, tuple(titles))}its parts: {', '.join(f'{part.title} ({part.id})' for part in model.parts)}")
-    elif not found.plates:
+    elif not (found.plates or found.solids):
         reader.error(node, f"{key}: part '{text}' has particles alone", "name a wall or a body: a part with faces")
     return number
 

@@ -32,10 +32,10 @@ class LatticeReader(ParameterReader):
         none = PlaceExpression("0", self.at(entry))
         part.velocity_of_place = [(given[k] if k < len(given) else none) or none for k in range(3)]
 
-    def read_lattice(self, node: Node, spacing: float = 0.0) -> Lattice:
-        """`spacing`: of blocks, which have none of their own."""
+    def read_lattice(self, node: Node, spacing: float = 0.0, others: tuple[str, ...] = ()) -> Lattice:
+        """`spacing`: of blocks, which have none of their own; `others`: keys that the entry may have besides."""
         block = spacing > 0
-        self.check_keys(node, "a block" if block else "a lattice", ("low", "high", *(() if block else ("spacing",)), "where", "jitter"))
+        self.check_keys(node, "a block" if block else "a lattice", ("low", "high", *(() if block else ("spacing",)), "where", "jitter", *others))
         before = self.diagnostics.errors
         (low, dim), (high, high_dim) = self.vector(node, "low"), self.vector(node, "high")
         lattice = Lattice(dim, low, spacing if block else self.length(node, "spacing"), (0, 0, 1), location=self.at(node))

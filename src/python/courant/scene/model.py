@@ -99,10 +99,15 @@ class Part:
     velocity_of_place: list[PlaceExpression] = field(default_factory=list)  # three, where one of them names x, y or z [L/T]
     pressure: PlaceExpression | None = None  # initial [M/LT2]
     density: float = 0.0  # > 0: elements carry a mass [M/L3]; 0: a volume, and RO of the material counts
+    empty: bool = False  # it may begin without particles
     merge: bool = False  # plates of the part share the nodes they have in common
     first_id: int = 0  # of nodes and elements; 0: the next free one
     lattices: list[Lattice] = field(default_factory=list)
-    plates: list[Any] = field(default_factory=list)  # Plate, Shape: nodes(), shells(), side
+    plates: list[Any] = field(default_factory=list)  # Plate, Shape, Mesh: nodes(), shells(), side
+    solids: list[Any] = field(default_factory=list)  # Mesh, beside plates or alone
+    fixed: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))  # nodes, from 0, that are held
+    fixed_to: int = 0  # rigid part with which they go; 0: held in space
+    tracked: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))  # nodes with a history
     inertia: tuple[float, np.ndarray, np.ndarray] | None = None  # of a rigid part: mass, centre, tensor about it, for *PART_INERTIA
     where: Location = field(default_factory=Location)
 

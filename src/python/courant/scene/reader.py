@@ -9,11 +9,13 @@ from ..words import shortest
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin_reader import BasinReader
 from .damping import read_damping
+from .gases import read_gases
 from .gauges import read_gauges
+from .joints import read_joints
 from .model import MOST_ENTITIES, Model, Part, Plate
 from .placeholders import PlaceholderFault, substitute
 
-_SCENE = ("title", "base", "parameters", "water", "box", "walls", "bodies", "wall_method", "gravity", "end", "output", "parts", "gauges", "damping", "keywords")
+_SCENE = ("title", "base", "parameters", "spacing", "water", "gases", "box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output", "parts", "gauges", "damping", "keywords")
 _PART = ("id", "title", "section", "material", "eos", "hourglass", "velocity", "pressure", "density", "merge", "first_id", "lattices", "plates")
 
 
@@ -33,15 +35,17 @@ class SceneReader(BasinReader):
             model.title = self.text(title)
             if len(model.title.encode()) > 80:
                 self.error(title, "title: a deck's title has at most 80 characters")
-        self.read_basin(root, model)
+        if not read_gases(self, root, model):
+            self.read_basin(root, model)
         for base in self.of_bases():
             if self.get(base, "parts") is not None:
                 self.read_parts(base, model)
-        if self.get(root, "parts") is not None or (not model.parts and self.get(root, "water") is None):
+        if self.get(root, "parts") is not None or (not model.parts and self.get(root, "water") is None and self.get(root, "gases") is None):
             self.read_parts(root, model)
         for base in self.of_bases():
             self.read_keywords(base, model)
         self.read_keywords(root, model)
+        read_joints(self, root, model, self.basin)
         read_gauges(self, root, model)
         read_damping(self, root, model)
         return model

@@ -140,6 +140,14 @@ class Scene:
             self._append(("water", "bodies"), self._shape(low, keys), mark)
         return self
 
+    def gas(self, low: Point, high: Point, *, density: Number, pressure: Number, velocity: Point | None = None, gamma: Number | None = None,
+            **keys: Any) -> Scene:
+        """A perfect gas from `low` to `high` [L], in whole spacings, with its `density` [M/L3], `pressure` [M/LT2], `velocity` [L/T], and ratio of heat
+        capacities `gamma` (1.4, if not given); `where`, `jitter`, `title`. Gases fill a scene without water, whose box has planes of symmetry as sides."""
+        given = {"velocity": velocity, "gamma": gamma, **keys}
+        self._append(("gases",), {"low": low, "high": high, "density": density, "pressure": pressure, **given}, _caller())
+        return self
+
     def box(self, low: Point, high: Point, open: Sequence[str] = (), motion: Mapping[str, str] | None = None) -> Scene:  # noqa: A002
         """Fixed walls around a box [L] but for its `open` sides: left, right, bottom, top, in space front and back; `motion`: its displacements by axis,
         formulas of TIME [L]."""
@@ -159,6 +167,37 @@ class Scene:
         """A rigid body that moves freely: a closed shape as of `wall`, with its `density` [M/L3] or `mass` [M], `velocity` [L/T], and `hold`: directions
         x, y, z and turns rx, ry, rz that it does not take."""
         self._append(("bodies",), self._shape(shape, keys), _caller())
+        return self
+
+    def structure(self, shape: Any = None, **keys: Any) -> Scene:
+        """A part that deforms: solids of `box={"low", "high"}`, `cylinder={"base", "top", "radius"}`, `sphere={"centre", "radius"}`, or of a file or mesh of
+        meshio (Gmsh, VTK, Abaqus and others); shells with a `thickness` [L] of `plate={"origin", "edge1", "edge2"}`, in the plane `line=[[x, y], ...]`, of a
+        cylinder as a tube, or of a mesh of triangles and quadrangles. `material`: a name, such as "steel", or {"density", "young", "poisson", "yield",
+        "tangent"} [M/L3, M/LT2]; `size` of its elements [L]; `fix`: nodes that are held, by a side ("bottom") or a condition ("y < 0.01"), or that go with
+        the wall or body `to`; `track=[point, ...]`: nodes whose motion is written; `velocity` [L/T], `scale`, `turn`, `move`, `title`."""
+        self._append(("structures",), self._shape(shape, keys), _caller())
+        return self
+
+    def joint(self, kind: str, between: Sequence[int | str], at: Point, *, axis: Point | None = None, stiffness: Number | None = None,
+              damping: Number | None = None) -> Scene:
+        """Joins two bodies, or a body and a wall, by their titles or numbers ("walls": the box): a "hinge" about an `axis` through the point `at` (in the plane
+        about z), with a spring of `stiffness` [ML2/T2] and `damping` [ML2/T] a radian, a "ball" joint, a "slider" along the axis, a "cylindrical" joint about
+        and along it, or "fixed"."""
+        given = {"axis": axis, "stiffness": stiffness, "damping": damping}
+        self._append(("joints",), {"kind": kind, "between": list(between), "at": at, **{key: value for key, value in given.items() if value is not None}}, _caller())
+        return self
+
+    def inlet(self, at: Point, direction: Point, *, speed: Number, width: Number | None = None, radius: Number | None = None,
+              sides: Sequence[Number] | None = None, start: Number | None = None, end: Number | None = None) -> Scene:
+        """Water that enters around the point `at` along `direction`, with a `speed` [L/T], a number or a formula of TIME: in the plane through a `width`, in
+        space through a circle of a `radius` or a rectangle of two `sides`, the second the more upright one [L]; from `start` to `end` [T]."""
+        given = {"width": width, "radius": radius, "sides": sides, "start": start, "end": end}
+        self._append(("inlets",), {"at": at, "direction": direction, "speed": speed, **{key: value for key, value in given.items() if value is not None}}, _caller())
+        return self
+
+    def outlet(self, side: str, level: Number | None = None) -> Scene:
+        """Lets water leave at an open side of the box, which is no longer in the results; with a `level` [L] the outlet of a channel keeps this depth."""
+        self._append(("outlets",), {"side": side} | ({"level": level} if level is not None else {}), _caller())
         return self
 
     def gauge(self, name: str, *, point: Point | None = None, level: Sequence[Point] | None = None, runup: Sequence[Point] | None = None,
@@ -224,6 +263,15 @@ class Scene:
     def explain(self) -> str:
         """Each choice that was made for the scene, with its reason and its cards."""
         return explained(self._model())
+
+    def preview(self, file: str | PathLike[str] | None = None, field: str = "", **keys: Any) -> Any:
+        """A picture of the first state, before the run: courant.preview has the arguments."""
+        import tempfile
+
+        from ..preview import preview
+
+        with tempfile.TemporaryDirectory(prefix="courant_") as folder:
+            return preview(self.write(Path(folder, "scene.k")), file, field, **keys)
 
     def run(self, folder: str | PathLike[str] = "results", **options: Any) -> Any:
         """Writes the deck to the folder and runs it: courant.run has the options and what is raised."""

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import yaml
@@ -11,6 +11,7 @@ import yaml
 from ..yaml_map import Node, is_list, is_map
 from . import shapes
 from .lattice_reader import LatticeReader
+from .meshes import Mesh
 from .node_reader import OF_PYTHON
 from .shapes import Shape
 from .surfaces import ShapeFault, read_shape, shape_of, sound
@@ -18,6 +19,7 @@ from .surfaces import ShapeFault, read_shape, shape_of, sound
 KINDS = ("file", "mesh", "box", "cylinder", "sphere", "circle", "line", "plate")
 SHAPE = (*KINDS, "title", "scale", "turn", "move", "close", "open", "ground")
 _OPEN = ("line", "plate")  # need not be closed
+Moved = TypeVar("Moved", Shape, Mesh)
 
 
 class DataNode(yaml.ScalarNode):
@@ -43,7 +45,7 @@ class ShapeReader(LatticeReader):
             shape = self._made(node, given[0], spacing)
             if shape is None or self.diagnostics.errors > before:
                 return None
-            shape = self._placed(node, replace(shape, ground=self.flag(node, "ground", False)))
+            shape = self.moved(node, replace(shape, ground=self.flag(node, "ground", False)), shape.dim)
             close = self.flag(node, "close", False)
             free = self.flag(node, "open", given[0] in _OPEN) or shape.ground or not closed
             shape = sound(shape, closed=not free or close, close=close)
@@ -124,14 +126,14 @@ class ShapeReader(LatticeReader):
             return self._refuse(entry, "plate: edge1 and edge2 span an area in space", "in the plane a plate is a line: [[x, y], [x, y]]")
         return shapes.plate(origin, edge1, edge2)
 
-    def _placed(self, node: Node, shape: Shape) -> Shape:
-        """Scaled, turned about its origin, by degrees about x, y and z or, in the plane, one angle, and moved."""
+    def moved(self, node: Node, shape: Moved, dim: int) -> Moved:
+        """A shape or mesh scaled, turned about its origin, by degrees about x, y and z or, in the plane, one angle, and moved."""
         points = shape.points
         if (scale := self.get(node, "scale")) is not None:
             points = points * (self.length_of(scale, "scale", "number") or 1.0)
         if (turn := self.get(node, "turn")) is not None:
             angles = [self.number(one, "turn") or 0.0 for one in turn.value] if is_list(turn) else [0.0, 0.0, self.number(turn, "turn") or 0.0]
-            if len(angles) != 3 or (shape.dim == 2 and any(angles[:2])):
+            if len(angles) != 3 or (dim == 2 and any(angles[:2])):
                 self.error(turn, "turn: expected degrees about x, y and z, in the plane one angle", "turn: [0, 0, 90]")
             else:
                 for axis, angle in enumerate(angles):
@@ -139,8 +141,8 @@ class ShapeReader(LatticeReader):
                     points = points.copy()
                     points[:, a], points[:, b] = c * points[:, a] - s * points[:, b], s * points[:, a] + c * points[:, b]
         if self.get(node, "move") is not None:
-            by, dim = self.vector(node, "move")
-            if dim and dim != shape.dim:
-                self.error(self.get(node, "move") or node, f"move: expected {shape.dim} components")
+            by, components = self.vector(node, "move")
+            if components and components != dim:
+                self.error(self.get(node, "move") or node, f"move: expected {dim} components")
             points = points + np.array(by)
         return replace(shape, points=points)

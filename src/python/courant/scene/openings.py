@@ -1,0 +1,228 @@
+"""Inlets and outlets of a scene: entries of `inlets:` and `outlets:` in YAML, `Scene.inlet` and `Scene.outlet` in Python."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..diagnostics import Location
+from ..yaml_map import Node, is_list, is_scalar
+from .numbers import number_text
+from .placeholders import PlaceholderFault, substitute
+
+if TYPE_CHECKING:
+    from .basin import Basin
+    from .model import Model
+    from .reader import SceneReader
+
+_INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
+_OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
+_BOX_HEAD = "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n"
+_GAP = 2.5  # spacings
+_BEYOND = 6  # spacings: more than the reach of the kernel
+FIRST_CURVE, FIRST_SYSTEM, BOX, FIRST_BAND = 981, 981, 981, 982
+
+
+@dataclass
+class Inlet:
+    at: np.ndarray  # centre [L]
+    direction: np.ndarray  # of the flow, a unit vector
+    size: tuple[float, ...]  # radius; two sides of a rectangle; in the plane half of the width [L]
+    speed: float  # 0: of the formula [L/T]
+    formula: str = ""  # of TIME
+    start: float = 0.0
+    end: float = 0.0  # 0: that of the run [T]
+    where: Location = field(default_factory=Location)
+
+
+@dataclass
+class Outlet:
+    side: str
+    level: float = 0.0  # depth of the water; 0: what reaches the side leaves [L]
+    where: Location = field(default_factory=Location)
+
+
+def read_openings(reader: SceneReader, root: Node, basin: Basin) -> None:
+    for key, example, read in (("inlets", _INLET, _read_inlet), ("outlets", _OUTLET, _read_outlet)):
+        node = reader.get(root, key)
+        if node is None:
+            continue
+        if not is_list(node) or not node.value:
+            reader.error(node, f"{key}: expected a list that is not empty", example)
+            continue
+        for entry in node.value:
+            if reader.is_map(entry, example, "an " + key[:-1]):
+                read(reader, entry, basin)
+
+
+def _read_inlet(reader: SceneReader, node: Node, basin: Basin) -> None:
+    shapes = ("width",) if basin.dim == 2 else ("radius", "sides")
+    reader.check_keys(node, "an inlet", ("at", "direction", *shapes, "speed", "start", "end"))
+    before = reader.diagnostics.errors
+    vectors = [reader.vector(node, key) for key in ("at", "direction")]
+    if any(dim and dim != basin.dim for _, dim in vectors):
+        reader.error(node, f"an inlet: at and direction have {basin.dim} components, as the scene", _INLET)
+    (at, _), (direction, dim) = vectors
+    length = math.hypot(*direction)
+    if dim and not length > 0:
+        reader.error(node, "direction: expected a direction of the flow that is not zero", _INLET)
+    given = [key for key in shapes if reader.get(node, key) is not None]
+    if len(given) != 1:
+        reader.error(node, f"an inlet: expected {' or '.join(shapes)}", _INLET if basin.dim == 2 else "radius: 0.05, or sides: [0.1, 0.2]")
+        return
+    size = _size(reader, node, given[0])
+    speed, formula = _speed(reader, node)
+    start = reader.number(reader.get(node, "start"), "start") or 0.0 if reader.get(node, "start") is not None else 0.0  # type: ignore[arg-type]
+    end = reader.length(node, "end", "time") if reader.get(node, "end") is not None else 0.0
+    if start < 0 or (end and end <= start):
+        reader.error(node, "an inlet: 'start' is a time >= 0, 'end' one behind it")
+    if reader.diagnostics.errors == before:
+        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, start, end, reader.at(node)))
+
+
+def check_inlets(reader: SceneReader, basin: Basin) -> None:
+    """Refuses inlets too near in front of a mirror: the water would be held by its own image."""
+    for inlet in basin.inlets if basin.mirrors and basin.box else ():
+        for k in range(basin.dim):
+            end = 0 if inlet.direction[k] > 0 else 1
+            wall = basin.box[end][k]  # type: ignore[index]
+            side = basin.sides[2 * k + end]
+            gap = (inlet.at[k] - wall) * (1 if end == 0 else -1)
+            if abs(inlet.direction[k]) > 0.5 and side not in basin.open and gap < _GAP * basin.spacing * (1 - 1e-6):
+                there = inlet.at.copy()
+                there[k] = wall + _GAP * basin.spacing * (1 if end == 0 else -1)
+                reader.diagnostics.error(inlet.where, f"an inlet {gap:.4g} in front of the wall '{side}' of the box, nearer than "
+                                         f"{_GAP:g} spacings: as the wall is a mirror, the water would be held by its image",
+                                         f"at: [{', '.join(f'{v:.4g}' for v in there[: basin.dim])}], or wall_method: contact")
+
+
+def _size(reader: SceneReader, node: Node, key: str) -> tuple[float, ...]:
+    if key != "sides":
+        value = reader.length(node, key)
+        return (value / 2 if key == "width" else value,)
+    entry = reader.get(node, "sides")
+    if entry is None or not is_list(entry) or len(entry.value) != 2:
+        reader.error(entry or node, "sides: expected two lengths", "sides: [0.1, 0.2], across the direction; the second is the more upright one")
+        return (0.0, 0.0)
+    return reader.length_of(entry.value[0], "sides"), reader.length_of(entry.value[1], "sides")
+
+
+def _speed(reader: SceneReader, node: Node) -> tuple[float, str]:
+    """A number, or a formula of TIME."""
+    entry = reader.get(node, "speed")
+    if entry is not None and is_scalar(entry) and "TIME" in entry.value:
+        try:
+            return 0.0, substitute(entry.value, reader.variables)
+        except PlaceholderFault as fault:
+            reader.error(entry, fault.message)
+            return 0.0, ""
+    return reader.length(node, "speed", "speed, or a formula of TIME,"), ""
+
+
+def _read_outlet(reader: SceneReader, node: Node, basin: Basin) -> None:
+    reader.check_keys(node, "an outlet", ("side", "level"))
+    entry = reader.get(node, "side")
+    sides = [side for side in basin.sides if side != "top"]
+    side = reader.text(entry) if entry is not None else ""
+    if side not in sides:
+        what = f"side: '{side}' is no side of the box through which water leaves" if side else "'side' is missing"
+        reader.error(entry or node, what, f"sides: {', '.join(sides)}")
+        return
+    if basin.box is None:
+        reader.error(node, "an outlet is an open side of the box, and the scene has no box", "box: {low: [0, 0], high: [2, 1], open: [top, right]}")
+        return
+    if side not in basin.open:
+        reader.error(node, f"an outlet on the side '{side}', which has a wall", f"open: [{', '.join(sorted(basin.open | {side}))}] of the box")
+    level = reader.length(node, "level") if reader.get(node, "level") is not None else 0.0
+    if level and side == "bottom":
+        reader.error(node, "level: of outlets at the ends of a channel", "leave it out")
+    if any(one.side == side for one in basin.outlets):
+        reader.error(node, f"two outlets on the side '{side}'")
+    basin.outlets.append(Outlet(side, level, reader.at(node)))
+
+
+def add_openings(basin: Basin, model: Model) -> None:
+    """Cards of inlets and outlets."""
+    for number, inlet in enumerate(basin.inlets):
+        model.keywords.append(_inlet_cards(inlet, number, basin))
+        how = f"formula {inlet.formula}" if inlet.formula else f"{inlet.speed:g}"
+        at = ", ".join(f"{v:g}" for v in inlet.at[: basin.dim])
+        model.choices.append((f"water enters at ({at}), speed {how}", "given", "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED")))
+    if basin.outlets:
+        model.keywords.append(_outlet_cards(basin))
+        for outlet in basin.outlets:
+            model.choices.append((f"water leaves at the side '{outlet.side}'" + (f", which keeps a depth of {outlet.level:g}" if outlet.level else ""),
+                                  "what is beyond goes on with its velocity, acts on the water before it while it is near, and is not in the results",
+                                  "*CONTROL_SPH BOXID" + (", *COURANT_LEVEL_OUTLET" if outlet.level else "")))
+
+
+def _row(*values: float | int) -> str:
+    return "".join((f"{v:10}" if isinstance(v, int) else number_text(v + 0.0, 10).rjust(10)) for v in values) + "\n"
+
+
+def _inlet_cards(inlet: Inlet, number: int, basin: Basin) -> str:
+    curve, out = FIRST_CURVE + number, "$ Inlet\n"
+    end = inlet.end or 1e20
+    if inlet.formula:
+        out += f"*DEFINE_CURVE_FUNCTION\n$#    lcid\n{curve:10}\n{inlet.formula}\n"
+    if len(inlet.size) == 1:
+        speed = -float(curve) if inlet.formula else inlet.speed
+        return (out + "*DEFINE_SPH_INJECTION_SIMPLIFIED\n$#     pid       vel    radius     psize     offst       cid       nid\n"
+                + _row(1, speed, inlet.size[0], basin.spacing, 0.0, 0, 0) + "$#      xc        yc        zc       dnx       dny       dnz      tbeg      tend\n"
+                + _row(*inlet.at.tolist(), *inlet.direction.tolist(), inlet.start, end))
+    first, second = across(inlet.direction)
+    velocity = inlet.direction * (1.0 if inlet.formula else inlet.speed)
+    system = FIRST_SYSTEM + number
+    out += "*DEFINE_COORDINATE_SYSTEM\n$#     cid        xo        yo        zo        xl        yl        zl\n"
+    out += _row(system, *inlet.at.tolist(), *(inlet.at + first).tolist()) + "$#      xp        yp        zp\n" + _row(*(inlet.at + second).tolist())
+    return (out + "*DEFINE_SPH_INJECTION\n$#     pid      nsid       cid        vx        vy        vz      area      vmag\n"
+            + _row(1, 0, system, *velocity.tolist(), 0.0, -curve if inlet.formula else 0)
+            + "$#    tbeg      tend       nid    radius      xlen      ylen     psize\n"
+            + _row(inlet.start, end, 0, 0.0, *inlet.size, basin.spacing))
+
+
+def across(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors across a flow, so that the third axis is the flow: the first is level, the second the more upright one."""
+    level = np.cross([0.0, 0.0, 1.0], direction)
+    if np.linalg.norm(level) < 1e-6:
+        level = np.array([1.0, 0.0, 0.0])
+    level = level / np.linalg.norm(level)
+    return level, np.cross(direction, level)
+
+
+def _outlet_cards(basin: Basin) -> str:
+    """A computational box that ends at outlets, and is far beyond the scene elsewhere."""
+    assert basin.box
+    low, high = (np.array(v, dtype=float) for v in basin.box)
+    far = 10 * float((high - low)[: basin.dim].max())
+    ends = [[low[k] - far, high[k] + far] for k in range(3)]
+    out = "$ Outlets: particles outside of this box keep their state and velocity\n"
+    names = {"left": (0, 0), "right": (0, 1), "bottom": (basin.dim - 1, 0)} | ({"front": (1, 0), "back": (1, 1)} if basin.dim == 3 else {})
+    for number, outlet in enumerate(basin.outlets):
+        axis, end = names[outlet.side]
+        ends[axis][end] = edge = (low, high)[end][axis]
+        if outlet.level:
+            # water beyond the end of the box holds the one before it from the first step on
+            ends[axis][end] = edge = edge + (-1 if end else 1) * _BEYOND * basin.spacing
+            # a band of six spacings or half a depth, which takes the velocity within the time that waves need through it
+            wide = max(6 * basin.spacing, outlet.level / 2)
+            band = [[low[k], high[k]] for k in range(3)]
+            band[axis] = [edge - wide, edge] if end else [edge, edge + wide]
+            if basin.dim == 2:
+                band[2] = [-1.0, 1.0]
+            out += _BOX_HEAD + _row(FIRST_BAND + number, *(float(v) for pair in band for v in pair))
+            out += "*COURANT_LEVEL_OUTLET\n$#   boxid     level       tau       dir\n"
+            out += _row(FIRST_BAND + number, outlet.level, wide / math.sqrt(basin.gravity * outlet.level), (axis + 1) * (1 if end else -1))
+    out += _BOX_HEAD + _row(BOX, *(float(v) for pair in ends for v in pair))
+    return out
+
+
+def with_outlets(cards: str, basin: Basin) -> str:
+    """The cards of the water, with *CONTROL_SPH of a scene with outlets: what is outside of the box is not in the results and touches nothing."""
+    if not basin.outlets:
+        return cards
+    usual = "         1         0    1.0e20" + _row(basin.dim)
+    assert usual in cards
+    return cards.replace(usual, _row(1, BOX, 1e20, basin.dim) + "$#    cont     deriv       ini     ishow     ierod     icont\n" + _row(0, 0, 0, 1, 0, 1))

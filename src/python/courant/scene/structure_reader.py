@@ -1,0 +1,264 @@
+"""Deformable parts of a description: entries of `structures:` in YAML, and `Scene.structure` in Python."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..expressions import Formula
+from ..optional import MissingModule, module
+from ..yaml_map import Node, is_list, is_map, is_scalar
+from . import meshes
+from .materials import read_material
+from .meshes import SOLIDS, Mesh
+from .shape_reader import DataNode
+from .structures import FIRST_STRUCTURE, Structure
+from .surfaces import ShapeFault, read_shape, shape_of, sound
+from .volume_mesh import tetrahedra
+
+if TYPE_CHECKING:
+    from .basin import Basin
+    from .reader import SceneReader
+
+_KINDS = ("box", "cylinder", "sphere", "plate", "line", "file", "mesh")
+_KEYS = (*_KINDS, "material", "thickness", "size", "fix", "to", "track", "velocity", "title", "scale", "turn", "move", "close")
+_EXAMPLE = "- {box: {low: [0.6, 0], high: [0.612, 0.08]}, material: rubber, fix: bottom}"
+_ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "bottom": (2, 0), "top": (2, 1)}
+
+
+def read_structures(reader: SceneReader, root: Node, basin: Basin) -> None:
+    node = reader.get(root, "structures")
+    if node is None:
+        return
+    if not is_list(node) or not node.value:
+        reader.error(node, "structures: expected a list that is not empty", _EXAMPLE)
+        return
+    for entry in node.value:
+        if reader.is_map(entry, _EXAMPLE, "a structure") and (made := _read_one(reader, entry, basin)) is not None:
+            made.part = FIRST_STRUCTURE + len(basin.structures)
+            basin.structures.append(made)
+            reader.add_entities(entry, len(made.mesh.cells))
+
+
+def _read_one(reader: SceneReader, node: Node, basin: Basin) -> Structure | None:
+    reader.check_keys(node, "a structure", _KEYS)
+    before = reader.diagnostics.errors
+    given = [kind for kind in _KINDS if reader.get(node, kind) is not None]
+    if len(given) != 1:
+        reader.error(node, f"a structure: expected one of {', '.join(_KINDS)}, got {' and '.join(given) or 'none'}", _EXAMPLE)
+        return None
+    thickness = reader.length(node, "thickness") if reader.get(node, "thickness") is not None else 0.0
+    mesh = _mesh(reader, node, given[0], basin, thickness)
+    material = read_material(reader, reader.get(node, "material"), node, basin.density)
+    if mesh is None or material is None or reader.diagnostics.errors > before:
+        return None
+    title = reader.get(node, "title")
+    mesh.name_of_kind, mesh.name = given[0], reader.text(title) if title is not None else mesh.name
+    for note in mesh.notes:
+        reader.diagnostics.note(reader.at(node), f"{mesh.name}: {note}")
+    if mesh.kind == SOLIDS and thickness:
+        reader.error(reader.get(node, "thickness") or node, "thickness: of shells, and these are solids", "leave it out")
+    if mesh.kind != SOLIDS and not thickness:
+        reader.error(node, f"'thickness' is missing: '{mesh.name}' is of shells", "thickness: 0.01")
+    made = Structure(mesh, material, thickness, where=reader.at(node))
+    if reader.get(node, "velocity") is not None:
+        made.velocity = reader.vector(node, "velocity")[0]
+    _fix(reader, node, made, basin)
+    _track(reader, node, made)
+    return made if reader.diagnostics.errors == before else None
+
+
+def _sizes(reader: SceneReader, node: Node, usual: np.ndarray) -> np.ndarray:
+    """Largest sides of elements along each axis [L]: one number, one for each axis, or what is usual."""
+    entry = reader.get(node, "size")
+    if entry is None:
+        return usual
+    if is_list(entry):
+        if len(entry.value) not in (2, 3):
+            reader.error(entry, "size: expected a length, or one along each axis", "size: 0.01")
+            return usual
+        values = [reader.length_of(one, "size") for one in entry.value]
+        return np.array([*values, values[-1]][:3]) if min(values) > 0 else usual
+    value = reader.length_of(entry, "size")
+    return np.full(3, value) if value > 0 else usual
+
+
+def _mesh(reader: SceneReader, node: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+    entry = reader.get(node, kind)
+    assert entry is not None
+    made = _of_file(reader, node, entry, kind, basin, thickness) if kind in ("file", "mesh") else _made(reader, node, entry, kind, basin, thickness)
+    if made is None:
+        return None
+    made = reader.moved(node, made, 2 if basin.dim == 2 else 3)
+    if made.kind == SOLIDS and not (made.volumes() > 0).all():
+        return reader._refuse(entry, "a structure: elements without a volume, or that cross themselves")  # type: ignore[no-any-return]
+    return made
+
+
+def _made(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+    """A mesh made here."""
+    dx, flat = basin.spacing, basin.dim == 2
+    if kind == "line":
+        shape = reader._line(entry) if flat else reader._refuse(entry, "line: of the plane", "in space: plate: {origin, edge1, edge2}")
+        if shape is None:
+            return None
+        points = shape.points[np.append(shape.faces[:, 0], shape.faces[-1, 1])]
+        length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+        usual = np.full(3, max(min(2 * dx, length / 16), thickness / 2))
+        return meshes.line(points[:, :2], float(_sizes(reader, node, usual)[0]))
+    if not is_map(entry):
+        reader.error(entry, f"{kind}: expected a map", _EXAMPLE)
+        return None
+    if flat and kind != "box":
+        return reader._refuse(entry, f"{kind}: deformable parts of the plane are boxes and lines", _EXAMPLE)  # type: ignore[no-any-return]
+    before = reader.diagnostics.errors
+    if kind == "plate":
+        shape = reader._plate(entry, dx)
+        if shape is None:
+            return None
+        origin, a, b = shape.points[0], shape.points[1] - shape.points[0], shape.points[3] - shape.points[0]
+        usual = np.full(3, max(min(2 * dx, min(np.linalg.norm(a), np.linalg.norm(b)) / 8), thickness / 2))
+        return meshes.plate(origin, a, b, _sizes(reader, node, usual))
+    reader.check_keys(entry, kind, {"box": ("low", "high"), "cylinder": ("base", "top", "radius"), "sphere": ("centre", "radius")}[kind])
+    if kind == "box":
+        (low, high), dim = reader._points(entry, "box", "low", "high")
+        if dim and (dim != basin.dim or not np.all(high[:dim] > low[:dim])):
+            reader.error(entry, f"box: low and high have {basin.dim} components, and high is above low along each axis")
+        thin = float((high - low)[: basin.dim].min())
+        usual = np.where((high - low) <= 1.001 * thin, thin / 3, max(2 * thin / 3, 0.0))
+        return meshes.box(low, high, _sizes(reader, node, usual), basin.dim) if reader.diagnostics.errors == before else None
+    radius = reader.length(entry, "radius")
+    size = float(_sizes(reader, node, np.full(3, radius / 3 if not thickness else max(2 * dx, thickness / 2)))[0])
+    points, dim = reader._points(entry, kind, *(("base", "top") if kind == "cylinder" else ("centre",)))
+    if reader.diagnostics.errors > before or dim != 3:
+        return reader._refuse(entry, f"{kind}: expected points of three components") if dim != 3 else None  # type: ignore[no-any-return]
+    if kind == "sphere":
+        return meshes.sphere(points[0], radius, size)
+    return meshes.tube(points[0], points[1], radius, size) if thickness else meshes.cylinder(points[0], points[1], radius, size)
+
+
+def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+    """Elements of a mesh: Gmsh, VTK, Abaqus and others by meshio; of a surface without a thickness, which Gmsh fills."""
+    hint = "Gmsh and others make a volume mesh (.msh, .vtu, .inp) of a surface; of its triangles, with a thickness, shells are made"
+    try:
+        if _is_surface(entry, kind, reader) and not thickness:
+            return _filled(reader, node, entry, kind, basin)
+        if kind == "mesh":
+            found: Any = entry.data if isinstance(entry, DataNode) else None
+            if not hasattr(found, "cells") or not hasattr(found, "points"):
+                return reader._refuse(entry, "mesh: expected a mesh of meshio", hint)  # type: ignore[no-any-return]
+            name = "mesh"
+        else:
+            path = Path(reader.folder, reader.text(entry))
+            if not path.is_file():
+                return reader._refuse(entry, f"'{path}' is not there", "paths of a scene begin at its folder")  # type: ignore[no-any-return]
+            found, name = module("meshio").read(path), path.stem
+    except MissingModule as fault:
+        return reader._refuse(entry, str(fault), "a surface with a 'thickness' is of shells" if "gmsh" in str(fault) else "")  # type: ignore[no-any-return]
+    except ShapeFault as fault:
+        return reader._refuse(entry, f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
+    except (Exception, SystemExit) as fault:  # libraries raise exceptions of many kinds
+        return reader._refuse(entry, f"the mesh cannot be read: {' '.join(str(fault).split())[:200]}", hint)  # type: ignore[no-any-return]
+    made = meshes.of_meshio(found)
+    if made is None:
+        kinds = ", ".join(sorted({block.type for block in found.cells})) or "none"
+        return reader._refuse(entry, f"a structure: expected elements of first order, got {kinds}", hint)  # type: ignore[no-any-return]
+    if reader.dim == 2:
+        return reader._refuse(entry, "a structure of a file: in space alone", _EXAMPLE)  # type: ignore[no-any-return]
+    made.name = name
+    _note_tetrahedra(made)
+    return made
+
+
+def _note_tetrahedra(made: Mesh) -> None:
+    if made.kind == SOLIDS and (made.cells[:, 3] == made.cells[:, 4]).any():
+        made.notes.append("tetrahedra of four nodes are stiff in bending: at least four of them through the thickness, or hexahedra")
+
+
+_SURFACES = (".stl", ".obj", ".ply", ".vtp")
+
+
+def _is_surface(entry: Node, kind: str, reader: SceneReader) -> bool:
+    """A file of triangles, or a mesh of PyVista, VTK or trimesh."""
+    if kind == "file":
+        return Path(reader.text(entry)).suffix.lower() in _SURFACES
+    return isinstance(entry, DataNode) and not (hasattr(entry.data, "cells") and hasattr(entry.data, "points") and not hasattr(entry.data, "IsA"))
+
+
+def _filled(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin) -> Mesh:
+    """Tetrahedra within a closed surface, in the scene's size. Raises ShapeFault, MissingModule."""
+    raw = shape_of(entry.data) if isinstance(entry, DataNode) else read_shape(Path(reader.folder, reader.text(entry)))
+    shape = sound(raw, closed=True, close=reader.flag(node, "close", False))
+    scale = reader.get(node, "scale")
+    factor = (reader.length_of(scale, "scale", "number") or 1.0) if scale is not None else 1.0
+    size = float(_sizes(reader, node, np.full(3, max(2 * basin.spacing, float((shape.high - shape.low).min()) * factor / 4)))[0])
+    made = tetrahedra(shape, size / factor)
+    made.name, made.notes = raw.name or "mesh", list(shape.notes)
+    share = made.volumes().sum() / shape.volume()
+    if abs(share - 1) > 0.01:
+        made.notes.append(f"the elements hold {share:.4g} of the volume within the surface: a smaller 'size' follows it more closely")
+    _note_tetrahedra(made)
+    return made
+
+
+def _nodes_where(reader: SceneReader, node: Node, mesh: Mesh, dim: int) -> np.ndarray:
+    """Of a side of the mesh, or where an expression of x, y, z is > 0; which, (n,) of bool."""
+    name = reader.text(node)
+    ends = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1)} if dim == 2 else _ENDS
+    if name in ends:
+        axis, end = ends[name]
+        limit = (mesh.low, mesh.high)[end][axis]
+        return np.abs(mesh.points[:, axis] - limit) <= 1e-6 * float(np.max(mesh.high - mesh.low))  # type: ignore[no-any-return]
+    formula = Formula(node.value, ("x", "y", "z"), reader.variables)
+    if not formula.ok:
+        reader.error(node, f"fix: {formula.error}", f"a side, {', '.join(ends)}, or a condition: y < 0.01")
+        return np.ones(len(mesh.points), dtype=bool)
+    return np.asarray(formula.over(dict(zip("xyz", mesh.points.T)), len(mesh.points)) > 0)
+
+
+def _fix(reader: SceneReader, node: Node, made: Structure, basin: Basin) -> None:
+    entry, to = reader.get(node, "fix"), reader.get(node, "to")
+    if to is not None and entry is None:
+        reader.error(to, "'to' goes with 'fix'", "fix: bottom, to: hull")
+    if entry is None:
+        return
+    chosen = np.zeros(len(made.mesh.points), dtype=bool)
+    for one in entry.value if is_list(entry) else [entry]:
+        if not is_scalar(one):
+            reader.error(one, "fix: expected a side or a condition", "fix: bottom")
+            continue
+        here = _nodes_where(reader, one, made.mesh, basin.dim)
+        if not here.any():
+            low, high = (", ".join(f"{v:.4g}" for v in corner[: basin.dim]) for corner in (made.mesh.low, made.mesh.high))
+            reader.error(one, f"fix: no node of '{made.title}' is there", f"its nodes reach from ({low}) to ({high})")
+        chosen |= here
+    made.fixed = np.flatnonzero(chosen)
+    if to is not None:
+        name = reader.text(to)
+        parts = {**basin.rigid_parts(), **{str(number): number for number in basin.rigid_parts().values()}}
+        if name not in parts:
+            reader.error(to, f"to: there is no wall or body '{name}'", f"there are {', '.join(basin.rigid_parts()) or 'none'}")
+        made.to = parts.get(name, 0)
+
+
+def _track(reader: SceneReader, node: Node, made: Structure) -> None:
+    """Nodes nearest to points."""
+    entry = reader.get(node, "track")
+    if entry is None:
+        return
+    if not is_list(entry) or not entry.value or not all(is_list(one) for one in entry.value):
+        reader.error(entry, "track: expected a list of points", "track: [[0.3, 0.08]]")
+        return
+    found = []
+    for one in entry.value:
+        values = [reader.number(v, "track") or 0.0 for v in one.value]
+        if len(values) not in (2, 3):
+            reader.error(one, "track: a point has two components in the plane, three in space")
+            continue
+        point = np.array([*values, 0.0][:3])
+        dim = len(values)
+        found.append(int(np.argmin(np.linalg.norm((made.mesh.points - point)[:, :dim], axis=1))))
+    made.tracked = np.array(sorted(set(found)), dtype=int)
+
+

@@ -1,0 +1,229 @@
+"""Deformable parts of a scene, and the cards that they need."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..diagnostics import Location
+from .materials import Material, material_cards, material_text
+from .meshes import SOLIDS, Mesh
+from .model import Near, Part, Vector
+from .placeholders import substitute
+from .shapes import Shape, polyline
+from .solids import part_set
+
+if TYPE_CHECKING:
+    from .basin import Basin
+    from .model import Model
+
+FIRST_STRUCTURE = 201
+STRUCTURES, OTHERS = 6, 7  # sets of parts: all that deform, and all rigid ones that they may touch
+
+
+@dataclass
+class Structure:
+    """A part that deforms. `fixed`: numbers of the nodes that are held, or that go with the rigid part `to`; `tracked`: of those with a history."""
+
+    mesh: Mesh
+    material: Material
+    thickness: float = 0.0  # of shells [L]
+    fixed: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
+    to: int = 0  # part; 0: held in space
+    tracked: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
+    velocity: Vector | None = None  # at the start [L/T]
+    where: Location = field(default_factory=Location)
+    part: int = 0
+
+    @property
+    def title(self) -> str:
+        return self.mesh.name
+
+    def keeps_out(self, dim: int, spacing: float) -> Near | NearShells:
+        """What has no water: the solid with half a spacing beside it, or the layer of a shell."""
+        if self.mesh.kind != SOLIDS:
+            return NearShells(self.mesh, (self.thickness + spacing) / 2 * (1 - 1e-6))
+        margin = 0.5 * spacing * (1 - 1e-6)
+        if dim == 2:
+            return Near(_section(self.mesh), margin)
+        return Near(Shape(self.mesh.points, self.mesh.outer_faces(), 3), margin)
+
+
+@dataclass
+class NearShells:
+    """What is nearer to shells than a margin [L]."""
+
+    mesh: Mesh
+    margin: float
+
+    def contains(self, x: np.ndarray) -> np.ndarray:
+        """Which points (n, 3), shape (n,)."""
+        out = np.zeros(len(x), dtype=bool)
+        near = np.flatnonzero(np.all((x > self.mesh.low - self.margin) & (x < self.mesh.high + self.margin), axis=1))
+        for corners in self.mesh.points[self.mesh.cells]:
+            some = near[~out[near]]
+            some = some[np.all((x[some] > corners.min(axis=0) - self.margin) & (x[some] < corners.max(axis=0) + self.margin), axis=1)]
+            if len(some):
+                distance = np.minimum(*(_distances(x[some], corners[[0, k, k + 1]]) for k in (1, 2)))
+                out[some] = distance < self.margin
+        return out
+
+
+def _distances(x: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Of points (n, 3) from a triangle, which may be a line, (n,)."""
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    size = float(np.linalg.norm(normal))
+    out = np.full(len(x), np.inf)
+    inside = np.full(len(x), size > 0)
+    for a, b in zip(corners, np.roll(corners, -1, axis=0)):
+        along = b - a
+        length = float(along @ along)
+        s = np.clip((x - a) @ along / length, 0, 1) if length > 0 else np.zeros(len(x))
+        out = np.minimum(out, np.linalg.norm(x - a - s[:, None] * along, axis=1))
+        inside &= np.einsum("ij,j->i", np.cross(along, x - a), normal) >= 0
+    return np.where(inside, np.abs((x - corners[0]) @ normal) / size, out) if size > 0 else out
+
+
+def _section(mesh: Mesh) -> Shape:
+    """The outline of solids of the plane."""
+    front = mesh.points[:, 2] < 0
+    faces = mesh.outer_faces()
+    lines = set()
+    for triangle in faces[~front[faces].all(axis=1) & front[faces].any(axis=1)]:
+        some = [int(k) for k in triangle if front[k]]
+        if len(some) == 2:
+            lines.add(tuple(some))
+    after = {a: b for a, b in lines}
+    order = [next(iter(after))]
+    while after[order[-1]] != order[0] and len(order) <= len(after):
+        order.append(after[order[-1]])
+    return polyline(mesh.points[order], closed=True)
+
+
+_SHELLS = """\
+*SECTION_SHELL
+$#   secid    elform      shrf       nip
+${id:10}${elform:10}  0.833333${nip:10}
+$#      t1        t2        t3        t4
+${t:10}${t:10}${t:10}${t:10}
+"""
+
+_SOLIDS = """\
+*SECTION_SOLID
+$#   secid    elform
+${id:10}${elform:10}
+"""
+
+_HOURGLASS = """\
+*HOURGLASS
+$#    hgid       ihq        qm
+${id:10}${ihq:10}${qm:10}
+"""
+
+# as of walls: SLSFAC SFSA = 1, a particle's stiffness is that of the water; SAST keeps particles half a spacing off faces
+_WATER = """\
+*CONTACT_AUTOMATIC_NODES_TO_SURFACE_ID
+$#     cid title
+         3water against deformable parts
+$#   surfa     surfb  surfatyp  surfbtyp
+         1         6         3         2
+$#      fs        fd        dc        vc       vdc    penchk        bt        dt
+         0         0         0         0         0         0         0    1.0e20
+$#    sfsa      sfsb      sast
+        10    1000.0${0.9999 * spacing:10}
+"""
+
+_CONTROL = """\
+*CONTROL_CONTACT
+$#  slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien
+       0.1         0         1         0         1         0         1
+*DATABASE_RCFORC
+$#      dt
+${output / 10:10}
+"""
+
+# IGNORE: parts begin where they are, also clamped in a wall; walls are thin here, as their thickness is that of water
+_TOUCH = """\
+*CONTACT_AUTOMATIC_{kind}_ID
+$#     cid title
+{cid:10}{title}
+$#   surfa     surfb  surfatyp  surfbtyp
+         6{surfb:10}         2{surfbtyp:10}
+$#      fs        fd        dc        vc       vdc    penchk        bt        dt
+         0         0         0         0         0         0         0    1.0e20
+$#    sfsa      sfsb      sast      sbst
+       1.0       1.0         0{sbst:>10}
+$#    soft    sofscl
+         1       0.1
+$#  penmax
+         0
+$#    igap    ignore
+         1         1
+"""
+
+_NODES = """\
+*DATABASE_NODOUT
+$#      dt
+${output / 10:10}
+"""
+
+
+def _section_cards(one: Structure) -> tuple[str, bool]:
+    """The section, with hourglass control where it has one."""
+    tetra = one.mesh.kind == SOLIDS and bool((one.mesh.cells[:, 3] == one.mesh.cells[:, 4]).all())
+    plastic = one.material.yield_stress > 0
+    values = {"id": float(one.part), "t": one.thickness, "nip": 5.0 if plastic else 3.0, "qm": 1.0, "ihq": 6.0}
+    if one.mesh.kind != SOLIDS:
+        flat = one.mesh.name_of_kind in ("line", "plate")
+        values |= {"elform": 2.0 if flat else 16.0, "ihq": 4.0, "qm": 0.1}
+        return substitute(_SHELLS + (_HOURGLASS if flat else ""), values), flat
+    whole = bool((one.mesh.cells[:, 4] != one.mesh.cells[:, 5]).all())  # hexahedra
+    elastic = whole and not plastic
+    values["elform"] = 13.0 if tetra else 1.0 if elastic else 2.0
+    return substitute(_SOLIDS + (_HOURGLASS if elastic else ""), values), elastic
+
+
+def add_structures(basin: Basin, model: Model, rigid: list[int]) -> None:
+    """Parts, sections, materials and contacts. `rigid`: parts of walls and bodies."""
+    if not basin.structures:
+        return
+    text, variables = "", basin.variables() | {"spacing": basin.spacing}
+    for one in basin.structures:
+        section, controlled = _section_cards(one)
+        text += section + material_cards(one.part, one.material)
+        part = Part(id=one.part, title=one.title[:70], section=one.part, material=one.part, hourglass=one.part if controlled else 0, velocity=one.velocity,
+                    where=one.where, fixed=one.fixed, fixed_to=one.to, tracked=one.tracked)
+        (part.solids if one.mesh.kind == SOLIDS else part.plates).append(one.mesh)
+        model.parts.append(part)
+    text += part_set(STRUCTURES, [one.part for one in basin.structures])
+    if not basin.box and not basin.solids:
+        text += substitute(_CONTROL, variables)
+    text += substitute(_WATER, variables)
+    if basin.dim == 3 and rigid:
+        text += part_set(OTHERS, rigid)
+        text += _TOUCH.format(kind="SURFACE_TO_SURFACE", cid=4, title="deformable parts against walls and bodies", surfb=OTHERS, surfbtyp=2,
+                              sbst=f"{1e-6 * basin.spacing:.3g}")
+    if basin.dim == 3:
+        text += _TOUCH.format(kind="SINGLE_SURFACE", cid=5, title="deformable parts against each other", surfb=0, surfbtyp=0, sbst="0")
+    if any(len(one.tracked) for one in basin.structures):
+        text += substitute(_NODES, variables)
+    model.keywords.append("$ Deformable parts\n" + text)
+    _explain(basin, model)
+
+
+def _explain(basin: Basin, model: Model) -> None:
+    for one in basin.structures:
+        what = "solids" if one.mesh.kind == SOLIDS else f"shells {one.thickness:g} thick"
+        held = f", {len(one.fixed)} nodes " + (f"go with part {one.to}" if one.to else "held") if len(one.fixed) else ", free"
+        model.choices.append((f"'{one.title}': {len(one.mesh.cells)} {what}{held}", material_text(one.material),
+                              f"*PART {one.part}, *SECTION_{'SOLID' if one.mesh.kind == SOLIDS else 'SHELL'}, "
+                              f"*MAT_{'PLASTIC_KINEMATIC' if one.material.yield_stress else 'ELASTIC'}"))
+        wave = one.mesh.side / one.material.sound_speed
+        limit = basin.spacing / basin.sound_speed
+        if wave < 0.5 * limit:
+            model.choices.append((f"'{one.title}' makes steps shorter: {wave:.2g} in its shortest element, {limit:.2g} in the water",
+                                  "the time that sound takes through it limits the step", "*CONTROL_TIMESTEP; a larger 'size' makes longer steps"))
+    model.choices.append(("water touches deformable parts" if basin.dim == 2 else "deformable parts touch water, walls, bodies and each other",
+                          "the program knows no contact of elements in the plane" if basin.dim == 2 else "all that can touch does",
+                          "*CONTACT_AUTOMATIC_NODES_TO_SURFACE 3" + ("" if basin.dim == 2 else ", *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE 4, _SINGLE_SURFACE 5")))
