@@ -11,9 +11,9 @@ namespace courant {
 
 /// A step in which a point has flown.
 struct DamageStep {
-  Real before, after;           ///< effective plastic strain [-]
-  Real damage;                  ///< before the step [-]
-  std::array<Real, 6> stress;   ///< after it, without damage: xx yy zz xy yz zx [M/LT2]
+  Real before, after;          ///< effective plastic strain [-]
+  Real damage;                 ///< before the step [-]
+  std::array<Real, 6> stress;  ///< after it, without damage: xx yy zz xy yz zx [M/LT2]
 };
 
 struct PlasticDamage {
@@ -22,8 +22,8 @@ struct PlasticDamage {
   Real critical = 1;  ///< damage at which a point fails [-]
 };
 
-/// `of` with damage; its first history number must be the plastic strain. Beside damage a point fails where `of`
-/// says so.
+/// `of` with damage; its first history number must be the plastic strain. Beside damage a point fails where
+/// `of` says so.
 std::shared_ptr<StrengthLaw> damage_by_flow(std::shared_ptr<StrengthLaw> of, PlasticDamage damage);
 
 }  // namespace courant

@@ -53,22 +53,23 @@ std::vector<FieldOf<C>> first_fields() {
           {"P1", &C::p1, "M/LT2", "HR 1: tangent modulus; HR 2: factor K of K (E0 + e)^N"},
           {"P2", &C::p2, "-", "HR 1: yield stress; HR 2: exponent N"}};
 }
-constexpr FieldRules hardening_curve =
-    rules::over(rules::optional_id_of(IdSpace::curve), "-", "M/LT2");
+constexpr FieldRules sheet_hardening = rules::over(rules::optional_id_of(IdSpace::curve), "-", "M/LT2");
 
-// By hand. E = 2.5, PR = 1/4, all R = 1: pulled by the same strain along a and b, s = 10/3 e along both, q = s.
-// e = 0.9: q = 3; yield stress 1, P1 = 1/2: Ep = 5/8. The normal is (1/2, 1/2), its stiffness 5/3: de = 2/(5/3
+// By hand. E = 2.5, PR = 1/4, all R = 1: pulled by the same strain along a and b, s = 10/3 e along both, q =
+// s. e = 0.9: q = 3; yield stress 1, P1 = 1/2: Ep = 5/8. The normal is (1/2, 1/2), its stiffness 5/3: de =
+// 2/(5/3
 // + 5/8) = 48/55, q = 1 + 5/8 de = 17/11. Below the yield stress as Hooke's law in the plane: aa = 8/3, ab =
 // 2/3, G = 1.
-const std::array<Real, 6> both{0.9, 0.9}, stretched{17.0 / 11, 17.0 / 11};
+const std::array<Real, 6> both_alike{0.9, 0.9}, stretched{17.0 / 11, 17.0 / 11};
 
-using B = MatBarlat;
-const RegisterStrength<B> mat_barlat{
-    "1/2 (a |K1 + K2|^M + a |K1 - K2|^M + c |2 K2|^M) = q^M, K1 = (s_a + h s_b)/2, K2^2 = ((s_a - h s_b)/2)^2 "
+using Barlat = MatBarlat;
+const RegisterStrength<Barlat> mat_barlat{
+    "1/2 (a |K1 + K2|^M + a |K1 - K2|^M + c |2 K2|^M) = q^M, K1 = (s_a + h s_b)/2, K2^2 = ((s_a - h "
+    "s_b)/2)^2 "
     "+ p^2 s_ab^2; q <= sigma_y(e) by HR; plastic strain along its normal; a, c, h, p from R00, R45, R90; "
     "shear across the sheet is elastic",
     "Barlat & Lian 1989",
-    {{"1,2.0,2.5,0.25,1,0.5,1.0\n8.0,1.0,1.0,1.0\n0\n\n\n", both, {}, stretched, {0}, {48.0 / 55}},
+    {{"1,2.0,2.5,0.25,1,0.5,1.0\n8.0,1.0,1.0,1.0\n0\n\n\n", both_alike, {}, stretched, {0}, {48.0 / 55}},
      {"1,2.0,2.5,0.25,1,0.5,1.0\n8.0,1.0,1.0,1.0\n0\n\n\n",
       {0.06, 0, 0, 0.1, 0.05, 0.1},
       {},
@@ -80,65 +81,74 @@ const RegisterStrength<B> mat_barlat{
                 "and Lian",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &B::title,
-     .cards = {
-         {.fields = with_fields<B>(first_fields<B>(), {{"ITER", &B::iter, "-", "iterations", no_effect}})},
-         {.fields = {{"M", &B::m, "-", "exponent of the surface, 2 or more", {.required = true}},
-                     {"R00", &B::r00, "-", "ratio of strains of a pull along a; a of the surface with PB"},
-                     {"R45", &B::r45, "-", "of a pull between a and b; c of the surface with PB"},
-                     {"R90", &B::r90, "-", "of a pull along b; h of the surface with PB"},
-                     {"LCID", &B::lcid, "-", "yield stress over plastic strain, HR 3", hardening_curve},
-                     {"E0", &B::e0, "-", "strain of HR 2", {.check = Check::not_negative}},
-                     {"SPI", &B::spi, "-", "where E0 is 0: up to 0.02 that strain, else the yield stress",
-                      {.check = Check::not_negative}},
-                     {"P3", &B::p3, "-", "of HR 5 and 6", no_effect}}},
-         {.fields = {{"AOPT", &B::aopt, "-", aopt_meaning},
-                     {"C", &B::c, "1/T", "of Cowper and Symonds"},
-                     {"P", &B::p, "-", "of Cowper and Symonds"},
-                     {"VLCID", &B::vlcid, "-", "change of volume over plastic strain", unsupported},
-                     {},
-                     {"PB", &B::pb, "-", "p of the surface; R00, R45, R90 then are a, c, h"},
-                     {"NLP/HTA", &B::hta, "-", "forming limit or heat treatment", unsupported},
-                     {"HTB", &B::htb, "-", "heat treatment", unsupported}}},
-         {.fields = with_fields<B>(fields_of_a<B>(),
-                                   {{"HTC", &B::htc, "-", "heat treatment", unsupported},
-                                    {"HTD", &B::htd, "-", "heat treatment", unsupported}})},
-         {.fields = with_fields<B>(
-              fields_of_v<B>(),
-              {{"BETA", &B::beta, "-", "angle by which a is turned about the normal, degrees"},
-               {"HTFLAG", &B::htflag, "-", "stage of heat treatment", unsupported}})},
-         {.fields = {{"USRFAIL", &B::usrfail, "-", "failure by a subroutine", unsupported},
-                     {"LCBI", &B::lcbi, "-", "of HR 7", no_effect},
-                     {"LCSH", &B::lcsh, "-", "of HR 7", no_effect}},
-          .optional = true}},
-     .convert = convert_hardening<B>}};
+     .title = &Barlat::title,
+     .cards =
+         {{.fields = with_fields<Barlat>(first_fields<Barlat>(),
+                                         {{"ITER", &Barlat::iter, "-", "iterations", no_effect}})},
+          {.fields = {{"M", &Barlat::m, "-", "exponent of the surface, 2 or more", {.required = true}},
+                      {"R00", &Barlat::r00, "-",
+                       "ratio of strains in tension along a; a of the surface with PB"},
+                      {"R45", &Barlat::r45, "-", "in tension between a and b; c of the surface with PB"},
+                      {"R90", &Barlat::r90, "-", "in tension along b; h of the surface with PB"},
+                      {"LCID", &Barlat::lcid, "-", "yield stress over plastic strain, HR 3", sheet_hardening},
+                      {"E0", &Barlat::e0, "-", "strain of HR 2", {.check = Check::not_negative}},
+                      {"SPI",
+                       &Barlat::spi,
+                       "-",
+                       "where E0 is 0: up to 0.02 that strain, else the yield stress",
+                       {.check = Check::not_negative}},
+                      {"P3", &Barlat::p3, "-", "of HR 5 and 6", no_effect}}},
+          {.fields = {{"AOPT", &Barlat::aopt, "-", aopt_meaning},
+                      {"C", &Barlat::c, "1/T", "of Cowper and Symonds"},
+                      {"P", &Barlat::p, "-", "of Cowper and Symonds"},
+                      {"VLCID", &Barlat::vlcid, "-", "change of volume over plastic strain", unsupported},
+                      {},
+                      {"PB", &Barlat::pb, "-", "p of the surface; R00, R45, R90 then are a, c, h"},
+                      {"NLP/HTA", &Barlat::hta, "-", "forming limit or heat treatment", unsupported},
+                      {"HTB", &Barlat::htb, "-", "heat treatment", unsupported}}},
+          {.fields = with_fields<Barlat>(fields_of_a<Barlat>(),
+                                         {{"HTC", &Barlat::htc, "-", "heat treatment", unsupported},
+                                          {"HTD", &Barlat::htd, "-", "heat treatment", unsupported}})},
+          {.fields = with_fields<Barlat>(
+               fields_of_v<Barlat>(),
+               {{"BETA", &Barlat::beta, "-", "angle by which a is turned about the normal, degrees"},
+                {"HTFLAG", &Barlat::htflag, "-", "stage of heat treatment", unsupported}})},
+          {.fields = {{"USRFAIL", &Barlat::usrfail, "-", "failure by a subroutine", unsupported},
+                      {"LCBI", &Barlat::lcbi, "-", "of HR 7", no_effect},
+                      {"LCSH", &Barlat::lcsh, "-", "of HR 7", no_effect}},
+           .optional = true}},
+     .convert = convert_hardening<Barlat>}};
 
-using H = MatHill;
-const RegisterStrength<H> mat_hill{
-    "q^2 = s_a^2 + h^2 s_b^2 - 2 R00/(1 + R00) s_a s_b + (1 + 2 R45)(R00 + R90)/((1 + R00) R90) s_ab^2, h^2 = "
+using Hill = MatHill;
+const RegisterStrength<Hill> mat_hill{
+    "q^2 = s_a^2 + h^2 s_b^2 - 2 R00/(1 + R00) s_a s_b + (1 + 2 R45)(R00 + R90)/((1 + R00) R90) s_ab^2, h^2 "
+    "= "
     "R00 (1 + R90)/(R90 (1 + R00)); q <= sigma_y(e) by HR; plastic strain along its normal; shear across the "
     "sheet is elastic",
     "Hill 1948",
-    {{"1,2.0,2.5,0.25,1,0.5,1.0\n1.0,1.0,1.0\n0\n\n\n", both, {}, stretched, {0}, {48.0 / 55}}},
+    {{"1,2.0,2.5,0.25,1,0.5,1.0\n1.0,1.0,1.0\n0\n\n\n", both_alike, {}, stretched, {0}, {48.0 / 55}}},
     {.names = {"MAT_HILL_3R", "MAT_122"},
      .purpose = "metal sheets whose yield stress and flow depend on the direction, by the surface of Hill",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &H::title,
-     .cards = {
-         {.fields = first_fields<H>()},
-         {.fields = {{"R00", &H::r00, "-", "ratio of strains of a pull along a"},
-                     {"R45", &H::r45, "-", "of a pull between a and b"},
-                     {"R90", &H::r90, "-", "of a pull along b"},
-                     {"LCID", &H::lcid, "-", "yield stress over plastic strain, HR 3", hardening_curve},
-                     {"E0", &H::e0, "-", "strain of HR 2; 0: where E e = K e^N",
-                      {.check = Check::not_negative}}}},
-         {.fields = {{"AOPT", &H::aopt, "-", aopt_meaning}}},
-         {.fields = fields_of_a<H>()},
-         {.fields = with_fields<H>(
-              fields_of_v<H>(),
-              {{"BETA", &H::beta, "-", "angle by which a is turned about the normal, degrees"}})}},
-     .convert = convert_hardening<H>}};
+     .title = &Hill::title,
+     .cards = {{.fields = first_fields<Hill>()},
+               {.fields = {{"R00", &Hill::r00, "-", "ratio of strains in tension along a"},
+                           {"R45", &Hill::r45, "-", "in tension between a and b"},
+                           {"R90", &Hill::r90, "-", "in tension along b"},
+                           {"LCID", &Hill::lcid, "-", "yield stress over plastic strain, HR 3",
+                            sheet_hardening},
+                           {"E0",
+                            &Hill::e0,
+                            "-",
+                            "strain of HR 2; 0: where E e = K e^N",
+                            {.check = Check::not_negative}}}},
+               {.fields = {{"AOPT", &Hill::aopt, "-", aopt_meaning}}},
+               {.fields = fields_of_a<Hill>()},
+               {.fields = with_fields<Hill>(
+                    fields_of_v<Hill>(),
+                    {{"BETA", &Hill::beta, "-", "angle by which a is turned about the normal, degrees"}})}},
+     .convert = convert_hardening<Hill>}};
 
 }  // namespace
 

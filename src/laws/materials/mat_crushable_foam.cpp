@@ -16,7 +16,7 @@ namespace {
 struct CrushStress {
   Curve curve{};
   CurvesOverRate over_rate{};
-  Real weight = 1;           ///< of a step in the mean rate [-]
+  Real weight = 1;            ///< of a step in the mean rate [-]
   bool nominal_rate = false;  ///< the rate is that of V/V0, else of its logarithm
   bool has_rates() const { return !over_rate.curves.empty(); }
   Real operator()(Real crushed, Real rate) const {
@@ -148,16 +148,18 @@ struct MatModifiedCrushableFoam : MatModifiedCrushableFoamFields {
       if (x.size() < 2) return fail(fmt::format("curve {} has less than two points", id));
       for (std::size_t k = 0; k < x.size(); ++k)
         if (!(y[k] > 0) || (k > 0 && !(x[k] > x[k - 1])))
-          return fail(fmt::format("curve {}: expected rising strains and stresses > 0, got ({:g}, {:g}) at point {}",
-                                  id, x[k], y[k], k + 1));
+          return fail(
+              fmt::format("curve {}: expected rising strains and stresses > 0, got ({:g}, {:g}) at point {}",
+                          id, x[k], y[k], k + 1));
       if (y.back() < y[y.size() - 2])
         return fail(fmt::format("curve {} falls beyond its last point, to below 0", id));
     }
   }
 };
 
-// As above by one curve; the mean rate is 2/13 of 2 ln(4/3) (dt = 1/2, NCYCLE 12). By a table, a step that counts
-// alone (NCYCLE 1): that curve at a rate of 2 ln(4/3), half of it at rest. By half in two directions: elastic.
+// As above by one curve; the mean rate is 2/13 of 2 ln(4/3) (dt = 1/2, NCYCLE 12). By a table, a step that
+// counts alone (NCYCLE 1): that curve at a rate of 2 ln(4/3), half of it at rest. By half in two directions:
+// elastic.
 const std::string two_rates = yield_curve +
                               "*DEFINE_CURVE\n6\n0.0,0.5\n0.5,1.5\n*DEFINE_TABLE_2D\n7\n0.0,6\n"
                               "0.57536414490356180,5\n";

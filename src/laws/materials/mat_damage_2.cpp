@@ -11,8 +11,8 @@ namespace courant {
 
 namespace {
 
-/// dD = Y/S de from the plastic strain EPSD on, where a principal stress is tension; Y is the elastic energy per
-/// volume of the stress without damage.
+/// dD = Y/S de from the plastic strain EPSD on, where a principal stress is tension; Y is the elastic energy
+/// per volume of the stress without damage.
 struct DuctileDamage {
   Real threshold, S, E, nu;
   Real operator()(const DamageStep& step) const {
@@ -48,11 +48,12 @@ struct MatDamage2 : MatPiecewiseLinearPlasticityFields {
   }
 };
 
-// By hand. E = 2.5, PR = 1/4, SIGY 3, ETAN 1/2: as *MAT_PIECEWISE_LINEAR_PLASTICITY de = 24/29 and s = 17/29 (4,
-// -2, -2), q = 102/29. In shear alone Y = (1 + PR) q^2/(3 E) = q^2/6. EPSD = 4/29, S = q^2/6 40/29: D = 1/2;
-// 102^2 40/(6 29^3) = 416160/146334.
+// By hand. E = 2.5, PR = 1/4, SIGY 3, ETAN 1/2: as *MAT_PIECEWISE_LINEAR_PLASTICITY de = 24/29 and s = 17/29
+// (4, -2, -2), q = 102/29. In shear alone Y = (1 + PR) q^2/(3 E) = q^2/6. EPSD = 4/29, S = q^2/6 40/29: D =
+// 1/2; 102^2 40/(6 29^3) = 416160/146334.
 const RegisterStrength<MatDamage2> mat_damage_2{
-    "s = (1 - D) s0, s0 as MAT_PIECEWISE_LINEAR_PLASTICITY; dD = Y/S de where e > EPSD and a principal stress is > "
+    "s = (1 - D) s0, s0 as MAT_PIECEWISE_LINEAR_PLASTICITY; dD = Y/S de where e > EPSD and a principal "
+    "stress is > "
     "0, Y = q0^2/(2 E) (2/3 (1 + PR) + 3 (1 - 2 PR) (p/q)^2); a point fails at DC and at FAIL",
     "Lemaitre 1985; J2 plasticity with radial return: Krieg & Key 1976",
     {{"1,2.0,2.5,0.25,3.0,0.5\n\n0.13793103448275862,2.843905039156997\n\n\n",

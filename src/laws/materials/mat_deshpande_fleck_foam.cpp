@@ -17,8 +17,8 @@ struct MatDeshpandeFleckFoam : MatDeshpandeFleckFoamFields {
   void check(const Deck& deck, Diagnostics& diagnostics) const;
 };
 
-/// Metal foam: its volume shrinks as it flows. With k = de/(A^2 Q), A^2 = 1 + (ALPHA/3)^2, the associated flow
-/// leaves s = s_tr/(1 + 3 G k), mean = mean_tr/(1 + K ALPHA^2 k).
+/// Metal foam: its volume shrinks as it flows. With k = de/(A^2 Q), A^2 = 1 + (ALPHA/3)^2, the associated
+/// flow leaves s = s_tr/(1 + 3 G k), mean = mean_tr/(1 + K ALPHA^2 k).
 class DeshpandeFleck : public StrengthLaw {
  public:
   explicit DeshpandeFleck(const MatDeshpandeFleckFoam& card)
@@ -96,12 +96,13 @@ class DeshpandeFleck : public StrengthLaw {
       k = next > low && next < high ? next : 0.5 * (low + high);
     }
     const Real of_q = 1 / (1 + 3 * G_ * k), of_mean = mean * (1 / (1 + K_ * shape_ * k) - of_q);
-    for (std::size_t c = 0; c < 6; ++c) block.stress[c][i] = of_q * block.stress[c][i] + (c < 3 ? of_mean : 0);
+    for (std::size_t c = 0; c < 6; ++c)
+      block.stress[c][i] = of_q * block.stress[c][i] + (c < 3 ? of_mean : 0);
   }
 
   MatDeshpandeFleckFoam card_;
-  Real K_, G_;   ///< [M/LT2]
-  Real shape_;   ///< ALPHA^2 [-]
+  Real K_, G_;  ///< [M/LT2]
+  Real shape_;  ///< ALPHA^2 [-]
 };
 
 std::shared_ptr<StrengthLaw> MatDeshpandeFleckFoam::law() const {
@@ -122,10 +123,12 @@ void MatDeshpandeFleckFoam::check(const Deck& deck, Diagnostics& diagnostics) co
 
 // By hand. E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3. ALPHA = 3: A^2 = 2. Crushed evenly by e = -0.6 in each
 // direction: mean = -3, Q = 3 3/sqrt(2). 1 + 15 k for the mean: k = 1/15 halves it. Q = 4.5/sqrt(2) = 9/(2
-// sqrt(2)), de = k 2 Q = 3/(5 sqrt(2)) = 0.3 sqrt(2). Yield stress SIGP + GAMMA e/EPSD with EPSD = 3 sqrt(2): SIGP
+// sqrt(2)), de = k 2 Q = 3/(5 sqrt(2)) = 0.3 sqrt(2). Yield stress SIGP + GAMMA e/EPSD with EPSD = 3 sqrt(2):
+// SIGP
 // + 0.1 GAMMA is that Q where GAMMA is Q and SIGP 0.9 Q. In shear alone with ALPHA = 0: as J2.
 const RegisterStrength<MatDeshpandeFleckFoam> mat_deshpande_fleck_foam{
-    "Q <= SIGP + GAMMA e/EPSD + ALPHA2 ln(1/(1 - (e/EPSD)^BETA)), Q^2 = (q^2 + ALPHA^2 mean^2)/(1 + (ALPHA/3)^2); "
+    "Q <= SIGP + GAMMA e/EPSD + ALPHA2 ln(1/(1 - (e/EPSD)^BETA)), Q^2 = (q^2 + ALPHA^2 mean^2)/(1 + "
+    "(ALPHA/3)^2); "
     "plastic strain along its normal, e its work over Q",
     "Deshpande & Fleck 2000; Hanssen et al. 2002",
     {{"1,2.0,2.5,0.25,3.0,3.1819805153394642\n4.242640687119285,0.0,1.0,2.8637824638055176\n",

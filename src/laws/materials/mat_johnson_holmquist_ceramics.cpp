@@ -27,8 +27,11 @@ class Ceramic : public StrengthLaw {
   Real shear_modulus() const override { return card_.g; }
   bool in_sheets() const override { return false; }
   std::vector<HistoryVariable> history() const override {
-    return {{"plastic_strain", "-"}, {"logarithmic_volume", "-"}, {"damage", "-"},
-            {"bulking_pressure", "M/LT2"}, {"torn", "-"}};
+    return {{"plastic_strain", "-"},
+            {"logarithmic_volume", "-"},
+            {"damage", "-"},
+            {"bulking_pressure", "M/LT2"},
+            {"torn", "-"}};
   }
   Real failure_limit() const override {
     if (card_.fs < 0) return 1;
@@ -76,8 +79,8 @@ class Ceramic : public StrengthLaw {
     const Real sum = (p + card_.t) / card_.phel;
     return sum > 0 ? card_.d1 * std::pow(sum, card_.d2) : 0;
   }
-  /// BETA of the elastic energy of shear that is lost becomes energy of pressure: with p = K1 mu + bulking, p'^2
-  /// = p^2 + 2 BETA K1 dU, U = strength^2/(6 G). [M/LT2]
+  /// BETA of the elastic energy of shear that is lost becomes energy of pressure: with p = K1 mu + bulking,
+  /// p'^2 = p^2 + 2 BETA K1 dU, U = strength^2/(6 G). [M/LT2]
   Real more_bulking(Real p, Real before, Real after) const {
     const Real lost = (before * before - after * after) / (6 * card_.g);
     return std::sqrt(p * p + 2 * card_.beta * card_.k1 * std::max(lost, Real(0))) - p;
@@ -100,28 +103,34 @@ void MatJohnsonHolmquistCeramics::check(const Deck& deck, Diagnostics& diagnosti
   expect(hel > phel, "HEL", "a number above PHEL", hel,
          "their difference times 3/2 is the effective stress by which strengths are scaled");
   expect(c == 0 || epsi > 0, "EPSI", "a number > 0", epsi, "C counts from this rate of strain on");
-  expect(beta <= 1, "BETA", "a number from 0 to 1", beta, "the share of the elastic energy of shear that is lost");
+  expect(beta <= 1, "BETA", "a number from 0 to 1", beta,
+         "the share of the elastic energy of shear that is lost");
 }
 
-// By hand. G = 1, K1 = 5/3; HEL 5, PHEL 3: strengths times 3; T = 3: T* = 1. Pressure 0 (shear without a change
-// of volume): intact 1 by A = 1, N = 1: 3. dev e = (2, -1, -1): q = 6: de = 1, s half. D1 = 4, D2 = 1: e_f = 4:
-// D = 1/4. Rate (dt = 1/2) 4 = EPSI e^2, C = 1/2: twice that, q = 6: nothing flows. Compressed to mu = 1 (ln V
-// = -ln 2 in one direction): p = K1 + K2 + K3 = 5/3 + 1/3 + 1 = 3: P* = 1, intact 2 -> 6; q = 2 ln 2: elastic.
-const std::string card = "1,2.0,1.0,1.0,0.5,0.0,1.0,1.0\n1.0,3.0,1.0,5.0,3.0\n4.0,1.0,1.6666666666666667,";
+// By hand. G = 1, K1 = 5/3; HEL 5, PHEL 3: strengths times 3; T = 3: T* = 1. Pressure 0 (shear without a
+// change of volume): intact 1 by A = 1, N = 1: 3. dev e = (2, -1, -1): q = 6: de = 1, s half. D1 = 4, D2 = 1:
+// e_f = 4: D = 1/4. Rate (dt = 1/2) 4 = EPSI e^2, C = 1/2: twice that, q = 6: nothing flows. Compressed to mu
+// = 1 (ln V = -ln 2 in one direction): p = K1 + K2 + K3 = 5/3 + 1/3 + 1 = 3: P* = 1, intact 2 -> 6; q = 2 ln
+// 2: elastic.
+const std::string ceramic_card =
+    "1,2.0,1.0,1.0,0.5,0.0,1.0,1.0\n1.0,3.0,1.0,5.0,3.0\n4.0,1.0,1.6666666666666667,";
 constexpr Real ln2 = 0.69314718055994531;
 const RegisterStrength<MatJohnsonHolmquistCeramics> mat_johnson_holmquist_ceramics{
-    "p = K1 mu + K2 mu^2 + K3 mu^3 + bulking >= -T (1 - D), K1 mu in tension; q <= 3/2 (HEL - PHEL) (i - D (i - b)), "
-    "i = A (P + T)^N R, b = B P^M R <= SFMAX, P and T over PHEL, R = 1 + C ln max(rate/EPSI, 1); dD = de/(D1 (P + "
+    "p = K1 mu + K2 mu^2 + K3 mu^3 + bulking >= -T (1 - D), K1 mu in tension; q <= 3/2 (HEL - PHEL) (i - D "
+    "(i - b)), "
+    "i = A (P + T)^N R, b = B P^M R <= SFMAX, P and T over PHEL, R = 1 + C ln max(rate/EPSI, 1); dD = de/(D1 "
+    "(P + "
     "T)^D2)",
     "Johnson & Holmquist 1994 (JH-2)",
-    {{card + "0.0,0.0\n", {2, -1, -1}, {}, {2, -1, -1}, {0, 0, 0}, {1, 0, 0.25}},
-     {"1,2.0,1.0,1.0,0.5,0.5,1.0,1.0\n0.5413411329464508,3.0,1.0,5.0,3.0\n4.0,1.0,1.6666666666666667,0.0,0.0\n",
+    {{ceramic_card + "0.0,0.0\n", {2, -1, -1}, {}, {2, -1, -1}, {0, 0, 0}, {1, 0, 0.25}},
+     {"1,2.0,1.0,1.0,0.5,0.5,1.0,1.0\n0.5413411329464508,3.0,1.0,5.0,3.0\n4.0,1.0,1.6666666666666667,0.0,0."
+      "0\n",
       {2, -1, -1},
       {},
       {4, -2, -2},
       {0, 0, 0},
       {0, 0, 0}},
-     {card + "0.3333333333333333,1.0\n",
+     {ceramic_card + "0.3333333333333333,1.0\n",
       {-ln2, 0, 0},
       {},
       {-3 - 4 * ln2 / 3, -3 + 2 * ln2 / 3, -3 + 2 * ln2 / 3},

@@ -25,8 +25,8 @@ struct MatJohnsonHolmquistConcrete : MatJohnsonHolmquistConcreteFields {
   void check(const Deck& deck, Diagnostics& diagnostics) const;
 };
 
-/// Concrete that is crushed for good: its pressure is elastic up to PC, then straight to PL, then that of the dense
-/// material; back it goes by a slope between.
+/// Concrete that is crushed for good: its pressure is elastic up to PC, then straight to PL, then that of the
+/// dense material; back it goes by a slope between.
 class Concrete : public StrengthLaw {
  public:
   explicit Concrete(const MatJohnsonHolmquistConcrete& card)
@@ -40,8 +40,11 @@ class Concrete : public StrengthLaw {
   Real shear_modulus() const override { return card_.g; }
   bool in_sheets() const override { return false; }
   std::vector<HistoryVariable> history() const override {
-    return {{"plastic_strain", "-"}, {"logarithmic_volume", "-"}, {"damage", "-"},
-            {"largest_compression", "-"}, {"torn", "-"}};
+    return {{"plastic_strain", "-"},
+            {"logarithmic_volume", "-"},
+            {"damage", "-"},
+            {"largest_compression", "-"},
+            {"torn", "-"}};
   }
   Real failure_limit() const override {
     if (card_.fs < 0) return 1;
@@ -105,7 +108,8 @@ class Concrete : public StrengthLaw {
     const Real of_pressure = P > 0 ? card_.b * std::pow(P, card_.n) : 0;
     // in tension down to 0 at -T (1 - D)
     const Real left = card_.t * (1 - damage), kept = p < 0 ? (left > 0 ? 1 + p / left : 0) : 1;
-    return card_.fc * std::min((card_.a * (1 - damage) * std::max(kept, Real(0)) + of_pressure) * rate, card_.sfmax);
+    return card_.fc *
+           std::min((card_.a * (1 - damage) * std::max(kept, Real(0)) + of_pressure) * rate, card_.sfmax);
   }
   /// [-]
   Real fracture_strain(Real p) const {
@@ -134,26 +138,42 @@ void MatJohnsonHolmquistConcrete::check(const Deck& deck, Diagnostics& diagnosti
   expect(k1 > pc / uc, "K1", "a number above PC/UC", k1, "the dense material is stiffer than the porous one");
 }
 
-// By hand. G = 1; PC = 5/3, UC = 1: elastic K = 5/3. FC = 2, A = 1, B = 2, N = 1, SFMAX 10, T = 2. At pressure 0 the
-// strength is 2: dev e = (2, -1, -1): q = 6: de = 4/3, s a third. D1 = 4, D2 = 1: e_f = 4 (0 + 1): D = 1/3. EFMIN
-// above that: 8: D = 1/6. Rate (dt = 1/2) 4 = EPS0 e^2, C = 1: three times that: 6, nothing flows. Compressed to mu
-// = 2 (ln V = -ln 3): PL = 5, UL = 1.5 (1 + UL = 2.5), K1 = 5 (K2 = K3 = 0): dense at x = 1, mu = 4: the line has
-// the slope 10/9: p = 5/3 + 10/9 = 25/9. Unloads by (2/3) 5/3 + (1/3) 5 = 25/9, so that 1 of mu = 2 is left;
-// strength 2 (1 + 2 25/18), q = 2 ln 3 below it; e_f = 4 (25/18 + 1) = 86/9: D = 9/86.
+// By hand. G = 1; PC = 5/3, UC = 1: elastic K = 5/3. FC = 2, A = 1, B = 2, N = 1, SFMAX 10, T = 2. At
+// pressure 0 the strength is 2: dev e = (2, -1, -1): q = 6: de = 4/3, s a third. D1 = 4, D2 = 1: e_f = 4 (0 +
+// 1): D = 1/3. EFMIN above that: 8: D = 1/6. Rate (dt = 1/2) 4 = EPS0 e^2, C = 1: three times that: 6,
+// nothing flows. Compressed to mu = 2 (ln V = -ln 3): PL = 5, UL = 1.5 (1 + UL = 2.5), K1 = 5 (K2 = K3 = 0):
+// dense at x = 1, mu = 4: the line has the slope 10/9: p = 5/3 + 10/9 = 25/9. Unloads by (2/3) 5/3 + (1/3) 5
+// = 25/9, so that 1 of mu = 2 is left; strength 2 (1 + 2 25/18), q = 2 ln 3 below it; e_f = 4 (25/18 + 1) =
+// 86/9: D = 9/86.
 constexpr Real ln3 = 1.0986122886681098;
-const std::string head = "1,2.0,1.0,1.0,2.0,", middle = "10.0,1.6666666666666667,1.0,5.0,1.5\n4.0,1.0,5.0\n";
+const std::string concrete_head = "1,2.0,1.0,1.0,2.0,",
+                  concrete_middle = "10.0,1.6666666666666667,1.0,5.0,1.5\n4.0,1.0,5.0\n";
 const RegisterStrength<MatJohnsonHolmquistConcrete> mat_johnson_holmquist_concrete{
-    "p: elastic to PC at UC, straight to PL, then K1 x + K2 x^2 + K3 x^3, x = (mu - UL)/(1 + UL), back by slopes "
-    "between; p >= -T (1 - D); q <= FC (A (1 - D) + B (p/FC)^N) (1 + C ln max(rate/EPS0, 1)) <= FC SFMAX, in tension "
+    "p: elastic to PC at UC, straight to PL, then K1 x + K2 x^2 + K3 x^3, x = (mu - UL)/(1 + UL), back by "
+    "slopes "
+    "between; p >= -T (1 - D); q <= FC (A (1 - D) + B (p/FC)^N) (1 + C ln max(rate/EPS0, 1)) <= FC SFMAX, in "
+    "tension "
     "A (1 - D) (1 + p/(T (1 - D))); dD = (de + dmu_p)/max(D1 ((p + T)/FC)^D2, EFMIN)",
     "Holmquist, Johnson & Cook 1993",
-    {{head + "0.0,1.0,2.0\n2.0,1.0,0.01," + middle, {2, -1, -1}, {}, {4.0 / 3, -2.0 / 3, -2.0 / 3}, {0, 0, 0},
+    {{concrete_head + "0.0,1.0,2.0\n2.0,1.0,0.01," + concrete_middle,
+      {2, -1, -1},
+      {},
+      {4.0 / 3, -2.0 / 3, -2.0 / 3},
+      {0, 0, 0},
       {4.0 / 3, 0, 1.0 / 3}},
-     {head + "0.0,1.0,2.0\n2.0,1.0,8.0," + middle, {2, -1, -1}, {}, {4.0 / 3, -2.0 / 3, -2.0 / 3}, {0, 0, 0},
+     {concrete_head + "0.0,1.0,2.0\n2.0,1.0,8.0," + concrete_middle,
+      {2, -1, -1},
+      {},
+      {4.0 / 3, -2.0 / 3, -2.0 / 3},
+      {0, 0, 0},
       {4.0 / 3, 0, 1.0 / 6}},
-     {head + "1.0,1.0,2.0\n2.0,0.5413411329464508,0.01," + middle, {2, -1, -1}, {}, {4, -2, -2}, {0, 0, 0},
+     {concrete_head + "1.0,1.0,2.0\n2.0,0.5413411329464508,0.01," + concrete_middle,
+      {2, -1, -1},
+      {},
+      {4, -2, -2},
+      {0, 0, 0},
       {0, 0, 0}},
-     {head + "0.0,1.0,2.0\n2.0,1.0,0.01," + middle,
+     {concrete_head + "0.0,1.0,2.0\n2.0,1.0,0.01," + concrete_middle,
       {-ln3, 0, 0},
       {},
       {-25.0 / 9 - 4 * ln3 / 3, -25.0 / 9 + 2 * ln3 / 3, -25.0 / 9 + 2 * ln3 / 3},

@@ -20,11 +20,12 @@ struct SideOfZero {
   IndexedPieces stress{}, factor{};
 };
 
-/// J2 plasticity whose yield stress is that of compression below the mean stress -PC, of tension above PT, and
-/// straight between.
+/// J2 plasticity whose yield stress is that of compression below the mean stress -PC, of tension above PT,
+/// and straight between.
 class CompressionTension : public StrengthLaw {
  public:
-  CompressionTension(Real density, Real E, Real nu, SideOfZero compression, SideOfZero tension, Real pc, Real pt)
+  CompressionTension(Real density, Real E, Real nu, SideOfZero compression, SideOfZero tension, Real pc,
+                     Real pt)
       : sides_{std::move(compression), std::move(tension)}, pc_(pc), pt_(pt) {
     law_.lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), law_.G = E / (2 * (1 + nu));
     ro = density;
@@ -56,8 +57,8 @@ class CompressionTension : public StrengthLaw {
   }
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
     if (!(block.dt > 0)) return StrengthLaw::update_in_plane_stress(block, rate_zz);
-    // Flow keeps the sign of the trial's mean stress and takes some of it away: the stress before the step, where
-    // it is smaller, is nearer to the one after it.
+    // Flow keeps the sign of the trial's mean stress and takes some of it away: the stress before the step,
+    // where it is smaller, is nearer to the one after it.
     Real tension[block_size];
     const Real both = plane_sum() * block.dt;
     for (Index i = 0; i < block.count; ++i) {
@@ -66,16 +67,13 @@ class CompressionTension : public StrengthLaw {
       const bool between = trial > 0 ? before > 0 && before < trial : before < 0 && before > trial;
       tension[i] = share(between ? before : trial);
     }
-    update_in_plane(loops_, law_, block, nullptr, rate_zz,
-                    [&](YieldPoints& points) { at(points, tension); });
+    update_in_plane(loops_, law_, block, nullptr, rate_zz, [&](YieldPoints& points) { at(points, tension); });
     keep_stiffness(block, sound_speed());
   }
 
  private:
   /// Sum of the stresses in the plane over that of the strains: E/(1 - nu). [M/LT2]
-  Real plane_sum() const {
-    return 2 * law_.G * (3 * law_.lambda + 2 * law_.G) / (law_.lambda + 2 * law_.G);
-  }
+  Real plane_sum() const { return 2 * law_.G * (3 * law_.lambda + 2 * law_.G) / (law_.lambda + 2 * law_.G); }
   Real share(Real mean) const {
     if (mean >= pt_) return 1;
     return mean <= -pc_ ? 0 : (mean + pc_) / (pt_ + pc_);
@@ -130,8 +128,10 @@ struct MatPlasticityCompressionTension : MatPlasticityCompressionTensionFields {
     return out;
   }
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
-  void check_curve(const Deck& deck, const Model& model, const char* field, Id id, Diagnostics& diagnostics) const;
-  void check_factor(const Deck& deck, const Model& model, const char* field, Id id, Diagnostics& diagnostics) const;
+  void check_curve(const Deck& deck, const Model& model, const char* field, Id id,
+                   Diagnostics& diagnostics) const;
+  void check_factor(const Deck& deck, const Model& model, const char* field, Id id,
+                    Diagnostics& diagnostics) const;
 };
 
 using CT = MatPlasticityCompressionTension;
@@ -157,7 +157,8 @@ void CT::check_curve(const Deck& deck, const Model& model, const char* field, Id
                                     id, points.strain[k], points.stress[k], k + 1),
                         hint);
     if (k > 0 && !(points.slope(k - 1) > fall.slope))
-      return deck.error(diagnostics, *this, field, fmt::format("curve {} behind point {}: {}", id, k, fall.too_fast));
+      return deck.error(diagnostics, *this, field,
+                        fmt::format("curve {} behind point {}: {}", id, k, fall.too_fast));
   }
   if (points.slope(points.strain.size() - 2) < 0)
     deck.error(diagnostics, *this, field, fmt::format("curve {} falls beyond its last point, to below 0", id),
@@ -186,31 +187,32 @@ void CT::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) c
   expect(fail >= 0, "FAIL", "a number >= 0", fail, "failure by a subroutine of one's own is not supported");
   expect(srflag == 0 || srflag == 1 || srflag == 2, "SRFLAG", "0, 1 or 2", srflag,
          "rate of all strain (0), of its deviator (1), of plastic strain (2)");
-  check_curve(deck, model, "LCIDC", lcidc, diagnostics), check_curve(deck, model, "LCIDT", lcidt, diagnostics);
-  check_factor(deck, model, "LCSRC", lcsrc, diagnostics), check_factor(deck, model, "LCSRT", lcsrt, diagnostics);
+  check_curve(deck, model, "LCIDC", lcidc, diagnostics),
+      check_curve(deck, model, "LCIDT", lcidt, diagnostics);
+  check_factor(deck, model, "LCSRC", lcsrc, diagnostics),
+      check_factor(deck, model, "LCSRT", lcsrt, diagnostics);
 }
 
 // By hand. E = 2.5, PR = 1/4: lambda = G = 1, 3 G = 3, K = 5/3. dev e = (2, -1, -1), no change of volume: q =
-// 6. Yield stress 4 in compression, 2 in tension; PC = 1, PT = 3. Mean stress 0: share of tension 1/4, 3.5: de
-// = 5/6. Mean 5: 2, de = 4/3. Mean -5: 4, de = 2/3. LCSRT 2 at a rate of 4 (dt = 1/2), SRFLAG 1: 4 in tension.
-const std::string curves =
+// 6. Yield stress 4 in compression, 2 in tension; PC = 1, PT = 3. Mean stress 0: share of tension 1/4, 3.5:
+// de = 5/6. Mean 5: 2, de = 4/3. Mean -5: 4, de = 2/3. LCSRT 2 at a rate of 4 (dt = 1/2), SRFLAG 1: 4 in
+// tension.
+const std::string iron_curves =
     "*DEFINE_CURVE\n1\n0.0,4.0\n1.0,4.0\n*DEFINE_CURVE\n2\n0.0,2.0\n1.0,2.0\n*DEFINE_CURVE\n3\n0.0,1.0\n"
     "8.0,3.0\n";
-const std::array<Real, 6> pull{2, -1, -1};
-StrengthReference flows(const std::string& cards, Real mean, Real q, Real plastic) {
-  return {cards + "1.0,3.0\n0\n" + curves,
-          pull,
-          {mean, mean, mean},
-          {mean + 2 * q / 3, mean - q / 3, mean - q / 3},
-          {0},
-          {plastic}};
+const std::array<Real, 6> iron_strain{2, -1, -1};
+StrengthReference iron_flows(const std::string& cards, Real mean, Real q, Real plastic) {
+  return {cards + "1.0,3.0\n0\n" + iron_curves,           iron_strain, {mean, mean, mean},
+          {mean + 2 * q / 3, mean - q / 3, mean - q / 3}, {0},         {plastic}};
 }
 const RegisterStrength<CT> mat_plasticity_compression_tension{
     "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 s:s) <= w s_t(e) f_t(rate) + (1 - w) s_c(e) f_c(rate), w = (mean "
-    "stress + PC)/(PT + PC) from 0 to 1; times 1 + (rate/C)^(1/P); return along s_tr; pressure by Hooke's law",
+    "stress + PC)/(PT + PC) from 0 to 1; times 1 + (rate/C)^(1/P); return along s_tr; pressure by Hooke's "
+    "law",
     "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
-    {flows("1,2.0,2.5,0.25\n1,2\n", 0, 3.5, 2.5 / 3), flows("1,2.0,2.5,0.25\n1,2\n", 5, 2, 4.0 / 3),
-     flows("1,2.0,2.5,0.25\n1,2\n", -5, 4, 2.0 / 3), flows("1,2.0,2.5,0.25\n1,2,0,3,1\n", 5, 4, 2.0 / 3)},
+    {iron_flows("1,2.0,2.5,0.25\n1,2\n", 0, 3.5, 2.5 / 3), iron_flows("1,2.0,2.5,0.25\n1,2\n", 5, 2, 4.0 / 3),
+     iron_flows("1,2.0,2.5,0.25\n1,2\n", -5, 4, 2.0 / 3),
+     iron_flows("1,2.0,2.5,0.25\n1,2,0,3,1\n", 5, 4, 2.0 / 3)},
     mat_plasticity_compression_tension_table()};
 
 }  // namespace

@@ -28,11 +28,12 @@ struct MatPlasticityWithDamage : MatPiecewiseLinearPlasticityFields {
   }
 };
 
-// By hand. E = 2.5, PR = 1/4, SIGY 3, ETAN 1/2: as *MAT_PIECEWISE_LINEAR_PLASTICITY de = 24/29 and q = 102/29.
-// EPPF = 4/29, EPPFR = 44/29: D = 1/2. With D = 1/4 before, where the stress was 3/4 (2, -1, -1), no flow
-// yet at e = 10: the stress without damage is (2, -1, -1) + 2 G (0.1, -0.05, -0.05).
+// By hand. E = 2.5, PR = 1/4, SIGY 3, ETAN 1/2: as *MAT_PIECEWISE_LINEAR_PLASTICITY de = 24/29 and q =
+// 102/29. EPPF = 4/29, EPPFR = 44/29: D = 1/2. With D = 1/4 before, where the stress was 3/4 (2, -1, -1), no
+// flow yet at e = 10: the stress without damage is (2, -1, -1) + 2 G (0.1, -0.05, -0.05).
 const RegisterStrength<MatPlasticityWithDamage> mat_plasticity_with_damage{
-    "s = (1 - D) s0, s0 as MAT_PIECEWISE_LINEAR_PLASTICITY; D = (e - EPPF)/(EPPFR - EPPF) from 0 to 1, where a "
+    "s = (1 - D) s0, s0 as MAT_PIECEWISE_LINEAR_PLASTICITY; D = (e - EPPF)/(EPPFR - EPPF) from 0 to 1, where "
+    "a "
     "point fails",
     "J2 plasticity with radial return: Krieg & Key 1976; damage: Lemaitre 1985",
     {{"1,2.0,2.5,0.25,3.0,0.5,0.13793103448275862\n,,,,1.5172413793103448\n\n\n",

@@ -32,7 +32,7 @@ Real BarlatSurface::ratio(Real radians) const {
   const Real c = std::cos(radians), s = std::sin(radians);
   std::array<Real, 3> d;
   power({c * c, s * s, c * s}, d);
-  // strain across the pull, over that through the thickness
+  // strain across the tension, over that through the thickness
   return -(s * s * d[0] + c * c * d[1] - s * c * d[2]) / (d[0] + d[1]);
 }
 
@@ -155,9 +155,10 @@ void BarlatCard::expect(const Deck& deck, Diagnostics& diagnostics, bool holds, 
 
 void BarlatCard::check_ratios(const Deck& deck, Diagnostics& diagnostics) const {
   for (const auto& [field, value] : {std::pair{"R00", r00}, std::pair{"R45", r45}, std::pair{"R90", r90}})
-    expect(deck, diagnostics, value > 0, field, "a number > 0", value,
-           "the ratio of the plastic strain across the pull to that through the thickness; curves (< 0) are "
-           "not supported");
+    expect(
+        deck, diagnostics, value > 0, field, "a number > 0", value,
+        "the ratio of the plastic strain across the tension to that through the thickness; curves (< 0) are "
+        "not supported");
 }
 
 void BarlatCard::check_hardening(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {

@@ -15,16 +15,16 @@ namespace courant {
 struct BarlatSurface {
   Real A = 1, C = 1, H = 1, P = 1;
   Real M = 2;  ///< at least 2
-  /// From the ratios of the plastic strain across the pull to that through the thickness, of pulls along a,
-  /// between a and b, and along b. [-]
+  /// From the ratios of the plastic strain across the tension to that through the thickness, in tension along
+  /// a, between a and b, and along b. [-]
   static BarlatSurface of_ratios(Real R00, Real R45, Real R90, Real M);
   /// q^M of these stresses a, b, ab, and its slopes over them.
   Real power(const std::array<Real, 3>& stress, std::array<Real, 3>& slope) const;
-  /// Ratio R of a pull at this angle to a. [-]
+  /// Ratio R in tension at this angle to a. [-]
   Real ratio(Real radians) const;
 };
 
-/// Points of a block on their way to the surface.
+/// Points of a block on the return to the surface.
 struct BarlatPoints {
   YieldPoints at;
   Real before[block_size];                          ///< plastic strain before the step [-]

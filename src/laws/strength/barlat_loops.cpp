@@ -45,7 +45,8 @@ struct AtPoint {
   Real F, na, nb, nc, ca, cb, cc;
 };
 template <int N>
-COURANT_INLINE AtPoint at_point(const BarlatSurface& s, const std::array<Real, 3>& elastic, Real a, Real b, Real c) {
+COURANT_INLINE AtPoint at_point(const BarlatSurface& s, const std::array<Real, 3>& elastic, Real a, Real b,
+                                Real c) {
   AtPoint out;
   const Real hb = s.H * b, P2 = s.P * s.P, K1 = 0.5 * (a + hb), difference = 0.5 * (a - hb);
   const Real K2 = std::sqrt(difference * difference + P2 * c * c) + none;
@@ -68,8 +69,9 @@ COURANT_INLINE Real root_near_1(Real F, Real per_M) {
   return 1 + per_M * d * (1 - 0.5 * (1 - per_M) * d * (1 - (2 - per_M) / 3 * d));
 }
 
-// Newton's method for q along the normal of the surface at the present point, which comes to a convex surface from
-// without: q/Y - e (n C n/Y + H q/Y^2) = 1 with the normal n; `far` from it by roots, each for its own points.
+// Newton's method for q along the normal of the surface at the present point, which comes to a convex surface
+// from without: q/Y - e (n C n/Y + H q/Y^2) = 1 with the normal n; `far` from it by roots, each for its own
+// points.
 template <int N, bool far>
 bool approach_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
                  BarlatPoints& p) {
@@ -98,10 +100,11 @@ bool approach_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, con
   return left > 0 || most > far_from;
 }
 
-// Flow along the normal at the end of the step: n (trial - e C n) = Y(e) with the normal at the present point, of
-// which q = n s. Only of steps within which the normal changes little.
+// Flow along the normal at the end of the step: n (trial - e C n) = Y(e) with the normal at the present
+// point, of which q = n s. Only of steps within which the normal changes little.
 template <int N>
-void turn_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block, BarlatPoints& p) {
+void turn_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
+             BarlatPoints& p) {
   constexpr Real little = 0.5;
   Real *sa = block.stress[0], *sb = block.stress[1], *sab = block.stress[3], *plastic = p.at.plastic;
   const Real per_M = 1 / s.M;
@@ -124,15 +127,15 @@ void turn_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const P
 }
 
 template <int N>
-bool step_by(bool turning, const BarlatSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
-             BarlatPoints& p) {
+bool step_by(bool turning, const BarlatSurface& s, const std::array<Real, 3>& elastic,
+             const PointBlock& block, BarlatPoints& p) {
   if (!turning) return approach_by<N, false>(s, elastic, block, p);
   turn_by<N>(s, elastic, block, p);
   return true;
 }
 
-bool step(bool turning, const BarlatSurface& surface, const std::array<Real, 3>& elastic, const PointBlock& block,
-          BarlatPoints& points) {
+bool step(bool turning, const BarlatSurface& surface, const std::array<Real, 3>& elastic,
+          const PointBlock& block, BarlatPoints& points) {
   if (surface.M == 2) return step_by<2>(turning, surface, elastic, block, points);
   if (surface.M == 6) return step_by<6>(turning, surface, elastic, block, points);
   if (surface.M == 8) return step_by<8>(turning, surface, elastic, block, points);

@@ -1,6 +1,6 @@
 #pragma once
-// What the laws of Johnson, Holmquist and Cook for ceramics and concrete have alike: a pressure over the change of
-// volume, a strength that depends on it, and damage by plastic flow.
+// What the laws of Johnson, Holmquist and Cook for ceramics and concrete have alike: a pressure over the
+// change of volume, a strength that depends on it, and damage by plastic flow.
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +22,8 @@ inline Real rate_factor_of(Real C, Real rate0, const PointBlock& block, Index i)
   return rate > rate0 ? 1 + C * std::log(rate / rate0) : 1;
 }
 
-/// Of a trial deviator with effective stress q in history's order: returned to `strength`, the mean stress set to
-/// -pressure. The increment of plastic strain. [-]
+/// Of a trial deviator with effective stress q in history's order: returned to `strength`, the mean stress
+/// set to -pressure. The increment of plastic strain. [-]
 inline Real return_to(Real G, Real strength, Real pressure, Real q, const PointBlock& block, Index i) {
   const auto& s = block.stress;
   const Real mean = (s[0][i] + s[1][i] + s[2][i]) / 3;

@@ -36,16 +36,16 @@ Real effective(const Ratios& r, Real m, Real p, Real x, Real y, Real t) {
   return std::pow(sum / 2, 1 / m);
 }
 
-/// A pull at an angle to a: stress along it, ratio of plastic strains across and through the thickness, plastic
-/// strain.
+/// Tension at an angle to a: stress along it, ratio of plastic strains across and through the thickness,
+/// plastic strain.
 struct Pulled {
   Real stress, ratio, plastic;
 };
-Pulled pull(const std::shared_ptr<StrengthLaw>& law, Real angle, Real strain, int steps) {
-  // the pull is along x of axes in which the law's are turned: the law sees turned rates
+Pulled stretch(const std::shared_ptr<StrengthLaw>& law, Real angle, Real strain, int steps) {
+  // the tension is along x of axes in which the law's are turned: the law sees turned rates
   DrivenPoint point(law, true);
   const Real c = std::cos(angle), s = std::sin(angle);
-  Eigen::Matrix2d R;  // columns: pull and across it, by the directions a, b
+  Eigen::Matrix2d R;  // columns: tension and across it, by the directions a, b
   R << c, -s, s, c;
   Eigen::Matrix2d total = Eigen::Matrix2d::Zero(), last = Eigen::Matrix2d::Zero();
   last(0, 0) = 1, last(1, 1) = -0.3;
@@ -70,7 +70,8 @@ Pulled pull(const std::shared_ptr<StrengthLaw>& law, Real angle, Real strain, in
       Eigen::Matrix2d across = step, shear = step;
       across(1, 1) += d, shear(0, 1) += d, shear(1, 0) += d;
       Eigen::Matrix2d slope;
-      slope.col(0) = (stress_by(across) - now).head<2>() / d, slope.col(1) = (stress_by(shear) - now).head<2>() / d;
+      slope.col(0) = (stress_by(across) - now).head<2>() / d,
+      slope.col(1) = (stress_by(shear) - now).head<2>() / d;
       const Eigen::Vector2d by = slope.fullPivLu().solve(Eigen::Vector2d(now.head<2>()));
       step(1, 1) -= by[0], step(0, 1) -= by[1], step(1, 0) -= by[1];
     }
@@ -86,16 +87,16 @@ Pulled pull(const std::shared_ptr<StrengthLaw>& law, Real angle, Real strain, in
 
 }  // namespace
 
-// The exponent of the paper's surface, its ratios and yield stresses: each pull yields at sigma_y q(1)^-1 of its
-// direction, and R00, R45, R90 come out as they were given.
-TEST(Barlat, PullsYieldAndThinAsTheSurfaceHasIt) {
+// The exponent of the paper's surface, its ratios and yield stresses: each yields at sigma_y q(1)^-1 of
+// its direction, and R00, R45, R90 come out as they were given.
+TEST(Barlat, TensionYieldsAndThinsAsTheSurfaceHasIt) {
   for (const Ratios& r : {steel, aluminium})
     for (const Real m : {2.0, 6.0, 8.0, 7.3}) {
       const auto law = test::law_from_cards("MAT_3-PARAMETER_BARLAT", cards_of(r, m));
       const BarlatSurface surface = BarlatSurface::of_ratios(r.r00, r.r45, r.r90, m);
       for (int degrees = 0; degrees <= 90; degrees += 15) {
         const Real angle = degrees * pi / 180, c = std::cos(angle), s = std::sin(angle);
-        const Pulled found = pull(law, angle, 0.02, 2000);
+        const Pulled found = stretch(law, angle, 0.02, 2000);
         const Real q = effective(r, m, surface.P, c * c, s * s, s * c);
         const Real Ep = 200.0 / (200 - 1), yield = 0.2 + Ep * found.plastic;
         EXPECT_NEAR(found.stress * q, yield, 1e-9 * yield) << m << " " << degrees;
@@ -109,14 +110,20 @@ TEST(Barlat, PullsYieldAndThinAsTheSurfaceHasIt) {
         const Real across = s * s * slope(1, 0, 0) + c * c * slope(0, 1, 0) - s * c * slope(0, 0, 1);
         const Real ratio = -across / (slope(1, 0, 0) + slope(0, 1, 0));
         EXPECT_NEAR(found.ratio, ratio, 1e-3 * ratio) << m << " " << degrees;
-        if (degrees == 0) { EXPECT_NEAR(ratio, r.r00, 1e-5); }
-        if (degrees == 45) { EXPECT_NEAR(ratio, r.r45, 1e-5); }
-        if (degrees == 90) { EXPECT_NEAR(ratio, r.r90, 1e-5); }
+        if (degrees == 0) {
+          EXPECT_NEAR(ratio, r.r00, 1e-5);
+        }
+        if (degrees == 45) {
+          EXPECT_NEAR(ratio, r.r45, 1e-5);
+        }
+        if (degrees == 90) {
+          EXPECT_NEAR(ratio, r.r90, 1e-5);
+        }
       }
     }
 }
 
-// Hill's law by F, G, H, N of his paper: pulls, the same pull along both axes, shear.
+// Hill's law by F, G, H, N of his paper: tension in directions, equal tension along both axes, shear.
 TEST(Barlat, HillIsHisOwnSurface) {
   for (const Ratios& r : {steel, aluminium}) {
     const std::string cards =
@@ -128,7 +135,7 @@ TEST(Barlat, HillIsHisOwnSurface) {
     };
     for (int degrees = 0; degrees <= 90; degrees += 15) {
       const Real angle = degrees * pi / 180, c = std::cos(angle), s = std::sin(angle);
-      const Pulled found = pull(law, angle, 0.02, 2000);
+      const Pulled found = stretch(law, angle, 0.02, 2000);
       const Real yield = 0.2 + 200.0 / 199 * found.plastic;
       EXPECT_NEAR(q(c * c, s * s, s * c) * found.stress, yield, 1e-9) << degrees;
       const Real ratio = (H + (2 * N - F - G - 4 * H) * s * s * c * c) / (F * s * s + G * c * c);
@@ -144,13 +151,15 @@ TEST(Barlat, HillIsHisOwnSurface) {
 // With all ratios 1 and M = 2 the stress is that of J2 plasticity, whatever the hardening.
 TEST(Barlat, EqualRatiosAreJ2) {
   const std::string curve = "*DEFINE_CURVE\n3\n0.0,0.2\n0.01,0.3\n0.1,0.4\n";
-  const auto of_curve = test::law_from_cards("MAT_3-PARAMETER_BARLAT",
-                                             "1,2.0,200.0,0.3,3\n2,1.0,1.0,1.0,3\n0\n\n\n\n" + curve);
-  const auto j2 = test::law_from_cards("MAT_PIECEWISE_LINEAR_PLASTICITY", "1,2.0,200.0,0.3\n,,3\n\n\n" + curve);
+  const auto of_curve =
+      test::law_from_cards("MAT_3-PARAMETER_BARLAT", "1,2.0,200.0,0.3,3\n2,1.0,1.0,1.0,3\n0\n\n\n\n" + curve);
+  const auto j2 =
+      test::law_from_cards("MAT_PIECEWISE_LINEAR_PLASTICITY", "1,2.0,200.0,0.3\n,,3\n\n\n" + curve);
   DrivenPoint a(of_curve, true), b(j2, true);
   for (int n = 0; n < 4000; ++n) {
     const Real turn = 0.002 * n;
-    const std::array<Real, 6> step{2e-5 * std::cos(turn), 1e-5 * std::sin(turn), 0, 1e-5 * std::sin(2 * turn), 0, 0};
+    const std::array<Real, 6> step{
+        2e-5 * std::cos(turn), 1e-5 * std::sin(turn), 0, 1e-5 * std::sin(2 * turn), 0, 0};
     a.strain(step), b.strain(step);
     for (const std::size_t k : {0, 1, 3}) ASSERT_NEAR(a.stress[k], b.stress[k], 2e-4) << n;
     ASSERT_NEAR(a.rate_zz, b.rate_zz, 2e-2 * 2e-5) << n;
@@ -160,10 +169,10 @@ TEST(Barlat, EqualRatiosAreJ2) {
 }
 
 // K (e0 + e)^N with e0 by E0, by SPI as strain and as stress, and where it meets E e.
-TEST(Barlat, PowerLawBeginsWhereItIsTold) {
+TEST(Barlat, PowerLawBeginsAtItsStrain) {
   const auto yield_of = [](const std::string& e0_spi) {
-    const auto law = test::law_from_cards("MAT_3-PARAMETER_BARLAT",
-                                          "1,2.0,200.0,0.3,2,0.5,0.2\n8,1.8,1.4,2.2,0," + e0_spi + "\n0\n\n\n");
+    const auto law = test::law_from_cards(
+        "MAT_3-PARAMETER_BARLAT", "1,2.0,200.0,0.3,2,0.5,0.2\n8,1.8,1.4,2.2,0," + e0_spi + "\n0\n\n\n");
     DrivenPoint point(law, true);
     for (int n = 0; n < 200; ++n) point.strain_with_free({5e-5, -2e-5, 0, 0, 0, 0}, {1});
     return std::pair{point.stress[0], point.of("plastic_strain")};
@@ -188,10 +197,13 @@ TEST(Barlat, LongStepsEndOnTheSurface) {
         DrivenPoint point(law, true);
         point.strain({size * std::sin(0.3 * n), size * std::cos(0.7 * n), 0, size * std::sin(1.1 * n), 0, 0});
         std::array<Real, 3> slope;
-        const Real q = std::pow(surface.power({point.stress[0], point.stress[1], point.stress[3]}, slope), 1 / m);
+        const Real q =
+            std::pow(surface.power({point.stress[0], point.stress[1], point.stress[3]}, slope), 1 / m);
         const Real yield = 0.2 + 200.0 / 199 * point.of("plastic_strain");
         EXPECT_LE(q, yield * (1 + 1e-11)) << m << " " << n;
-        if (point.of("plastic_strain") > 0) { EXPECT_NEAR(q, yield, 1e-11 * yield) << m << " " << n; }
+        if (point.of("plastic_strain") > 0) {
+          EXPECT_NEAR(q, yield, 1e-11 * yield) << m << " " << n;
+        }
       }
     }
   }

@@ -17,8 +17,8 @@ namespace {
 /// Alumina (Anderson, Johnson & Holmquist 1995), GPa, mm, g/mm^3: without influence of the rate.
 std::string alumina(Real beta, Real d1, Real k2 = 0, Real k3 = 0) {
   return fmt::format(
-      "1,3.89e-3,90.16,0.93,0.31,0.0,0.6,0.6\n0.0,0.2,1e20,2.79,1.46,{}\n{},1.0,130.95,{},{},0\n", beta, d1, k2,
-      k3);
+      "1,3.89e-3,90.16,0.93,0.31,0.0,0.6,0.6\n0.0,0.2,1e20,2.79,1.46,{}\n{},1.0,130.95,{},{},0\n", beta, d1,
+      k2, k3);
 }
 constexpr Real hel = 1.5 * (2.79 - 1.46);
 Real mean(const DrivenPoint& p) {
@@ -32,7 +32,8 @@ const std::string concrete =
 
 }  // namespace
 
-// Squeezed in one direction: pressure K1 mu + K2 mu^2 + K3 mu^3, deviator by elasticity up to A (P* + T*)^N, then that.
+// Squeezed in one direction: pressure K1 mu + K2 mu^2 + K3 mu^3, deviator by elasticity up to A (P* + T*)^N,
+// then that.
 TEST(JohnsonHolmquistCeramics, IntactStrengthFollowsThePressure) {
   DrivenPoint point(law_from_cards("MAT_JOHNSON_HOLMQUIST_CERAMICS", alumina(0, 1e9, 100, 50)));
   for (int n = 1; n <= 100; ++n) {
@@ -47,7 +48,8 @@ TEST(JohnsonHolmquistCeramics, IntactStrengthFollowsThePressure) {
   EXPECT_LT(point.of("damage"), 1e-9);
 }
 
-// At a steady pressure damage is the plastic strain over D1 (P* + T*)^D2, strength goes from intact to broken with it.
+// At a steady pressure damage is the plastic strain over D1 (P* + T*)^D2, strength goes from intact to broken
+// with it.
 TEST(JohnsonHolmquistCeramics, BreaksByPlasticStrain) {
   DrivenPoint point(law_from_cards("MAT_JOHNSON_HOLMQUIST_CERAMICS", alumina(0, 0.01)));
   for (int n = 0; n < 10; ++n) point.strain({-1e-3, -1e-3, -1e-3, 0, 0, 0});
@@ -65,8 +67,8 @@ TEST(JohnsonHolmquistCeramics, BreaksByPlasticStrain) {
   EXPECT_EQ(point.of("damage"), 1);
 }
 
-// Broken under pressure it swells: p'^2 = p^2 + 2 BETA K1 (U of intact - U of broken), U = q^2/(6 G), in the limit of
-// many steps, each of which has its own p. Without tension left, once broken.
+// Broken under pressure it swells: p'^2 = p^2 + 2 BETA K1 (U of intact - U of broken), U = q^2/(6 G), in the
+// limit of many steps, each of which has its own p. Without tension left, once broken.
 TEST(JohnsonHolmquistCeramics, SwellsAndBearsNoTensionOnceBroken) {
   for (const Real beta : {0.5, 1.0}) {
     DrivenPoint point(law_from_cards("MAT_JOHNSON_HOLMQUIST_CERAMICS", alumina(beta, 1e-9)));
@@ -87,7 +89,8 @@ TEST(JohnsonHolmquistCeramics, SwellsAndBearsNoTensionOnceBroken) {
   EXPECT_EQ(whole.of("torn"), 1);
 }
 
-// Pressure over mu of the paper: elastic, crushed, dense; unloading by a slope between, and back to where it was left.
+// Pressure over mu of the paper: elastic, crushed, dense; unloading by a slope between, and back to where it
+// was left.
 TEST(JohnsonHolmquistConcrete, IsCrushedForGood) {
   DrivenPoint point(law_from_cards("MAT_JOHNSON_HOLMQUIST_CONCRETE", concrete));
   const Real steps = 2000;
@@ -112,7 +115,7 @@ TEST(JohnsonHolmquistConcrete, IsCrushedForGood) {
     const Real mu = squeeze(-0.05 / steps);
     EXPECT_NEAR(-mean(point), expected(mu), 1e-8 * expected(mu));
   }
-  // half way back, and to the top again
+  // half of it back, and to the top again
   const Real top = std::expm1(-volume), p = -mean(point), share = (top - 0.001) / (locks - 0.001);
   const Real back = (1 - share) * 16000 + share * 85000;
   Real mu = squeeze(0.003);
@@ -134,7 +137,8 @@ TEST(JohnsonHolmquistConcrete, IsCrushedForGood) {
   EXPECT_NEAR(mean(point), 4 * (1 - D), 1e-9);
 }
 
-// Shear at a steady pressure: FC (A (1 - D) + B P*^N), D by the plastic strain over D1 (P* + T*), at least EFMIN.
+// Shear at a steady pressure: FC (A (1 - D) + B P*^N), D by the plastic strain over D1 (P* + T*), at least
+// EFMIN.
 TEST(JohnsonHolmquistConcrete, LosesItsCohesion) {
   DrivenPoint point(law_from_cards("MAT_JOHNSON_HOLMQUIST_CONCRETE", concrete));
   for (int n = 0; n < 10; ++n) point.strain({-2e-5, -2e-5, -2e-5, 0, 0, 0});
@@ -146,7 +150,8 @@ TEST(JohnsonHolmquistConcrete, LosesItsCohesion) {
     point.strain({0, 0, 0, 1e-4, 0, 0});
     EXPECT_NEAR(point.of("damage"), std::min(point.of("plastic_strain") / breaks, 1.0), 1e-10);
     if (D > 0) {
-      EXPECT_NEAR(std::sqrt(3.0) * point.stress[3], 48 * (0.79 * (1 - D) + 1.6 * std::pow(P, 0.61)), 1e-8) << n;
+      EXPECT_NEAR(std::sqrt(3.0) * point.stress[3], 48 * (0.79 * (1 - D) + 1.6 * std::pow(P, 0.61)), 1e-8)
+          << n;
     }
   }
   EXPECT_EQ(point.of("damage"), 1);

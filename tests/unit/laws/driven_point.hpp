@@ -34,8 +34,8 @@ struct DrivenPoint {
     else
       law->update(block);
   }
-  /// The same with the strains `free` such that their stresses are 0 after it; they are returned in the order of
-  /// the tensor. Newton's method with differences.
+  /// The same with the strains `free` such that their stresses are 0 after it; they are returned in the order
+  /// of the tensor. Newton's method with differences.
   std::array<Real, 6> strain_with_free(std::array<Real, 6> step, const std::vector<std::size_t>& free) {
     const auto old_stress = stress;
     const auto old_history = history;

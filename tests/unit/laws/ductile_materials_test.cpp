@@ -12,14 +12,16 @@ using namespace courant;
 using test::DrivenPoint;
 using test::law_from_cards;
 
-// 081 in a pull: (1 - D)(yield stress), D = (e - EPPF)/(EPPFR - EPPF), in space and in the plane; unloading by (1
+// 081 in tension: (1 - D)(yield stress), D = (e - EPPF)/(EPPFR - EPPF), in space and in the plane; unloading
+// by (1
 // - D) E.
 TEST(PlasticityWithDamage, StressFallsToNothing) {
-  const auto law = law_from_cards("MAT_PLASTICITY_WITH_DAMAGE",
-                                  "1,2.0,200.0,0.3,0.2,1.0,0.02\n,,,,0.10\n\n\n");
+  const auto law =
+      law_from_cards("MAT_PLASTICITY_WITH_DAMAGE", "1,2.0,200.0,0.3,0.2,1.0,0.02\n,,,,0.10\n\n\n");
   for (const bool plane : {false, true}) {
     DrivenPoint point(law, plane);
-    const std::vector<std::size_t> free = plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
+    const std::vector<std::size_t> free =
+        plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
     for (int n = 0; n < 80; ++n) {
       point.strain_with_free({1e-3, -4e-4, -4e-4, 0, 0, 0}, free);
       const Real e = point.of("plastic_strain"), D = std::max((e - 0.02) / 0.08, 0.0);
@@ -38,41 +40,45 @@ TEST(PlasticityWithDamage, StressFallsToNothing) {
   }
 }
 
-// 105 without hardening: Y = sigma_y^2/(2 E) f of the triaxiality, so that D is straight over the plastic strain
-// beyond EPSD. In pull f = 1, in shear 2/3 (1 + PR); in compression nothing happens.
+// 105 without hardening: Y = sigma_y^2/(2 E) f of the triaxiality, so that D is straight over the plastic
+// strain beyond EPSD. In tension f = 1, in shear 2/3 (1 + PR); in compression nothing happens.
 TEST(Damage2, GrowsByElasticEnergy) {
   const std::string curve = "*DEFINE_CURVE\n3\n0.0,0.2\n1.0,0.2\n";
   const auto law = law_from_cards("MAT_DAMAGE_2", "1,2.0,200.0,0.3\n,,3\n0.01,0.001,0.4\n\n\n" + curve);
-  const Real in_pull = 0.04 / 400 / 0.001;
+  const Real in_tension = 0.04 / 400 / 0.001;
   for (const bool plane : {false, true}) {
-    const std::vector<std::size_t> free = plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
+    const std::vector<std::size_t> free =
+        plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
     DrivenPoint pulled(law, plane), pressed(law, plane), sheared(law, plane);
     for (int n = 0; n < 300; ++n) {
       pulled.strain_with_free({1e-3, -5e-4, -5e-4, 0, 0, 0}, free);
       pressed.strain_with_free({-1e-3, 5e-4, 5e-4, 0, 0, 0}, free);
       sheared.strain({0, 0, 0, 1e-3, 0, 0});
     }
-    const Real e = pulled.of("plastic_strain"), D = in_pull * (e - 0.01);
+    const Real e = pulled.of("plastic_strain"), D = in_tension * (e - 0.01);
     EXPECT_NEAR(pulled.of("damage"), D, 1e-9);
     EXPECT_NEAR(pulled.stress[0], (1 - D) * 0.2, 1e-9);
     EXPECT_NEAR(pulled.of("failure_ratio"), D / 0.4, 1e-8);
     EXPECT_GT(pressed.of("plastic_strain"), 0.2);
     EXPECT_EQ(pressed.of("damage"), 0);
-    const Real in_shear = in_pull * 2.0 / 3 * 1.3;
+    const Real in_shear = in_tension * 2.0 / 3 * 1.3;
     EXPECT_NEAR(sheared.of("damage"), in_shear * (sheared.of("plastic_strain") - 0.01), 1e-9);
   }
 }
 
-// 124: pulls follow LCIDT, presses LCIDC; without PC and PT the sign of the mean stress decides, in shear that is
-// 0 tension. With PC and PT straight between, as far as the mean stress of the pull itself goes.
-TEST(CompressionTension, PullAndPressFollowTheirCurves) {
+// 124: tension follows LCIDT, compression LCIDC; without PC and PT the sign of the mean stress decides, in
+// shear that is 0 tension. With PC and PT straight between, as far as the mean stress itself goes.
+TEST(CompressionTension, EachSideFollowsItsCurve) {
   const std::string curves =
-      "*DEFINE_CURVE\n1\n0.0,0.3\n0.1,0.4\n*DEFINE_CURVE\n2\n0.0,0.2\n0.1,0.25\n*DEFINE_CURVE\n3\n0.0,1.0\n1.0,2.0\n";
-  const auto law = law_from_cards("MAT_PLASTICITY_COMPRESSION_TENSION", "1,2.0,200.0,0.3\n1,2\n0\n0\n" + curves);
+      "*DEFINE_CURVE\n1\n0.0,0.3\n0.1,0.4\n*DEFINE_CURVE\n2\n0.0,0.2\n0.1,0.25\n*DEFINE_CURVE\n3\n0.0,1.0\n1."
+      "0,2.0\n";
+  const auto law =
+      law_from_cards("MAT_PLASTICITY_COMPRESSION_TENSION", "1,2.0,200.0,0.3\n1,2\n0\n0\n" + curves);
   const auto between =
       law_from_cards("MAT_PLASTICITY_COMPRESSION_TENSION", "1,2.0,200.0,0.3\n1,2\n0.5,0.5\n0\n" + curves);
   for (const bool plane : {false, true}) {
-    const std::vector<std::size_t> free = plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
+    const std::vector<std::size_t> free =
+        plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
     DrivenPoint pulled(law, plane), pressed(law, plane), weighed(between, plane);
     for (int n = 0; n < 50; ++n) {
       pulled.strain_with_free({1e-3, -5e-4, -5e-4, 0, 0, 0}, free);
@@ -89,10 +95,11 @@ TEST(CompressionTension, PullAndPressFollowTheirCurves) {
   }
   // twice the rate of strain along the axis: the factor 1 + rate, of plastic strain
   for (const bool plane : {false, true}) {
-    DrivenPoint fast(law_from_cards("MAT_PLASTICITY_COMPRESSION_TENSION",
-                                    "1,2.0,200.0,0.3\n1,2,0,3,2\n0\n0\n" + curves),
-                     plane);
-    const std::vector<std::size_t> free = plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
+    DrivenPoint fast(
+        law_from_cards("MAT_PLASTICITY_COMPRESSION_TENSION", "1,2.0,200.0,0.3\n1,2,0,3,2\n0\n0\n" + curves),
+        plane);
+    const std::vector<std::size_t> free =
+        plane ? std::vector<std::size_t>{1} : std::vector<std::size_t>{1, 2};
     fast.dt = 1e-3;
     Real last = 0, rate = 0;
     for (int n = 0; n < 100; ++n) {
@@ -105,7 +112,8 @@ TEST(CompressionTension, PullAndPressFollowTheirCurves) {
 }
 
 // 154: a bar is crushed at its yield stress and keeps its width with ALPHA^2 = 9/2; all around at sqrt(1 +
-// ALPHA^2/9)/ALPHA of it; in shear sqrt((1 + ALPHA^2/9)/3) of it. Deshpande & Fleck 2000, plastic Poisson ratio (1/2
+// ALPHA^2/9)/ALPHA of it; in shear sqrt((1 + ALPHA^2/9)/3) of it. Deshpande & Fleck 2000, plastic Poisson
+// ratio (1/2
 // - (ALPHA/3)^2)/(1 + (ALPHA/3)^2).
 TEST(DeshpandeFleck, IsCrushedAsItsSurfaceHasIt) {
   const auto yield = [](Real e) {
