@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cube_decks.hpp"
+#include "pressure_decks.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
 #include "solid_decks.hpp"
@@ -29,7 +30,7 @@ const std::string metal_foam_card =
 const std::string rate_foam_card =
     "*MAT_MODIFIED_CRUSHABLE_FOAM\n1,1.0,500.0,0.0,9,0.5\n*DEFINE_CURVE\n7\n0.0,1.0\n0.5,2.0\n*DEFINE_"
     "CURVE\n8\n0.0,"
-    "3.0\n0.5,6.0\n*DEFINE_TABLE_2D\n9\n0.0,7\n0.02,8\n";
+    "3.0\n0.5,6.0\n*DEFINE_TABLE_2D\n9\n0.0,7\n0.002,8\n";
 const std::string ceramic_card =
     "*MAT_JOHNSON_HOLMQUIST_CERAMICS\n1,3.89e-3,90.16,0.93,0.31,0.0,0.6,0.6\n0.0,0.2,0.0,2.79,1.46,1.0\n"
     "0.005,1.0,130.95,0.0,0.0,0\n";
@@ -43,7 +44,7 @@ const std::string concrete_card =
 ShellDeck pulled_sheet(const std::string& name, Real beta) {
   ShellDeck deck;
   deck.plate(1, 1, 2, 2, 1);
-  const std::string hardening = name == "MAT_HILL_3R" ? "1.8,1.4,2.2" : "8.0,1.8,1.4,2.2";
+  const std::string hardening = name == "MAT_3-PARAMETER_BARLAT" ? "8.0,1.8,1.4,2.2" : "1.8,1.4,2.2";
   deck.part(1, 0.01,
             fmt::format("*{}\n1,1.0,1000.0,0.3,1,5.0,1.0\n{}\n2\n,,,1.0,0.0,0.0\n,,,,,,{}\n", name, hardening,
                         beta),
@@ -75,9 +76,9 @@ TEST(DuctileBrittle, SheetsThinByTheirRatios) {
       const World& world = s->world();
       Real low = 0, high = 0;  // along x = 1 the mean width of what shears, too
       for (Index n = 0; n < world.nodes.size(); ++n) {
-        const Vec x = world.nodes.x[n];
-        if (x[0] > 0.9 && world.nodes.x[n][1] < 0.3) low = x[1];
-        if (x[0] > 0.9 && world.nodes.x[n][1] > 0.7) high = x[1];
+        const Real x = world.nodes.x.data(0)[n], y = world.nodes.x.data(1)[n];
+        if (x > 0.9 && y < 0.3) low = y;
+        if (x > 0.9 && y > 0.7) high = y;
       }
       const Real stress = 1.0, elastic = -0.3 * stress / 1000;
       const Real across = std::log(high - low) - elastic, along = std::log(1.1) - stress / 1000;
@@ -143,7 +144,8 @@ TEST(DuctileBrittle, MetalFoamIsCrushed) {
     const auto yield = [](Real e) { return 2 + 0.5 * e / 1.5 - 3 * std::log(1 - std::pow(e / 1.5, 2.5)); };
     Real e = -std::log(l);
     for (int k = 0; k < 20; ++k) e = -std::log(l) - yield(e) / 500;
-    EXPECT_NEAR(force_on(*s), yield(e), 0.01 * yield(e)) << l;
+    const Real force = yield(e) * std::pow(1 + 0.3 * yield(e) / 500, 2);  // it widens elastically
+    EXPECT_NEAR(force_on(*s), force, 0.01 * force) << l;
   }
   EXPECT_LT(test::energy_error(*s), 0.01);
 }
@@ -151,12 +153,11 @@ TEST(DuctileBrittle, MetalFoamIsCrushed) {
 // Crushed slowly by the lower curve, fast by the upper, at half of its rate between; the true rate rises with
 // 1/l.
 TEST(DuctileBrittle, FoamIsStifferAtHighRates) {
-  for (const auto& [v, share] : {std::pair{1e-4, 0.0}, std::pair{0.0075, 0.5}, std::pair{0.1, 1.0}}) {
+  for (const Real v : {1e-4, 7.5e-4, 0.01}) {
     auto s = simulation_of(
         driven_cube(1, rate_foam_card, fmt::format("0.0,-{0}\n1e9,-{0}\n", v), false).text(1e9));
     test::run_until(*s, 0.25 / v);
-    const Real rate = v / 0.75, weight = std::min(rate / 0.02, 1.0);
-    EXPECT_NEAR(weight, share, 0.01);
+    const Real weight = std::min(v / 0.75 / 0.002, 1.0);
     const Real stress = (1 - weight) * 1.5 + weight * 4.5;
     EXPECT_NEAR(force_on(*s), stress, 0.02 * stress) << v;
   }
@@ -188,7 +189,7 @@ TEST(DuctileBrittle, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   for (const std::string& material : {damage_card, lemaitre_card, two_curves_card, metal_foam_card,
                                       rate_foam_card, ceramic_card, concrete_card}) {
     SolidDeck deck;
-    deck.block(Vec(4, 3, 2), 8, 6, 4, 1);
+    deck.block(Vec(3, 2, 2), 6, 4, 4, 1);
     deck.cards = "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,1\n" + material;
     deck.cards += "*INITIAL_VELOCITY\n0\n-0.5,0.1,-0.2\n*RIGIDWALL_PLANAR\n0\n-0.01,0.0,0.0,1.0,0.0,0.0\n";
     test::expect_same_bits(deck.text(100), 60, 25);
