@@ -55,6 +55,11 @@ std::vector<FieldOf<C>> first_fields() {
 }
 constexpr FieldRules sheet_hardening = rules::over(rules::optional_id_of(IdSpace::curve), "-", "M/LT2");
 
+constexpr FieldRules of_curve(FieldRules rules) {
+  rules.refers = IdSpace::curve;
+  return rules;
+}
+
 // By hand. E = 2.5, PR = 1/4, all R = 1: pulled by the same strain along a and b, s = 10/3 e along both, q =
 // s. e = 0.9: q = 3; yield stress 1, P1 = 1/2: Ep = 5/8. The normal is (1/2, 1/2), its stiffness 5/3: de =
 // 2/(5/3
@@ -98,24 +103,25 @@ const RegisterStrength<Barlat> mat_barlat{
                        "where E0 is 0: up to 0.02 that strain, else the yield stress",
                        {.check = Check::not_negative}},
                       {"P3", &Barlat::p3, "-", "of HR 5 and 6", no_effect}}},
-          {.fields = {{"AOPT", &Barlat::aopt, "-", aopt_meaning},
-                      {"C", &Barlat::c, "1/T", "of Cowper and Symonds"},
-                      {"P", &Barlat::p, "-", "of Cowper and Symonds"},
-                      {"VLCID", &Barlat::vlcid, "-", "change of volume over plastic strain", unsupported},
-                      {},
-                      {"PB", &Barlat::pb, "-", "p of the surface; R00, R45, R90 then are a, c, h"},
-                      {"NLP/HTA", &Barlat::hta, "-", "forming limit or heat treatment", unsupported},
-                      {"HTB", &Barlat::htb, "-", "heat treatment", unsupported}}},
-          {.fields = with_fields<Barlat>(fields_of_a<Barlat>(),
-                                         {{"HTC", &Barlat::htc, "-", "heat treatment", unsupported},
-                                          {"HTD", &Barlat::htd, "-", "heat treatment", unsupported}})},
+          {.fields =
+               {{"AOPT", &Barlat::aopt, "-", aopt_meaning},
+                {"C", &Barlat::c, "1/T", "of Cowper and Symonds"},
+                {"P", &Barlat::p, "-", "of Cowper and Symonds"},
+                {"VLCID", &Barlat::vlcid, "-", "change of volume over plastic strain", of_curve(unsupported)},
+                {},
+                {"PB", &Barlat::pb, "-", "p of the surface; R00, R45, R90 then are a, c, h"},
+                {"NLP/HTA", &Barlat::hta, "-", "forming limit or heat treatment", of_curve(unsupported)},
+                {"HTB", &Barlat::htb, "-", "heat treatment", unsupported}}},
+          {.fields = with_fields<Barlat>(
+               fields_of_a<Barlat>(), {{"HTC", &Barlat::htc, "-", "heat treatment", of_curve(unsupported)},
+                                       {"HTD", &Barlat::htd, "-", "heat treatment", of_curve(unsupported)}})},
           {.fields = with_fields<Barlat>(
                fields_of_v<Barlat>(),
                {{"BETA", &Barlat::beta, "-", "angle by which a is turned about the normal, degrees"},
                 {"HTFLAG", &Barlat::htflag, "-", "stage of heat treatment", unsupported}})},
           {.fields = {{"USRFAIL", &Barlat::usrfail, "-", "failure by a subroutine", unsupported},
-                      {"LCBI", &Barlat::lcbi, "-", "of HR 7", no_effect},
-                      {"LCSH", &Barlat::lcsh, "-", "of HR 7", no_effect}},
+                      {"LCBI", &Barlat::lcbi, "-", "of HR 7", of_curve(no_effect)},
+                      {"LCSH", &Barlat::lcsh, "-", "of HR 7", of_curve(no_effect)}},
            .optional = true}},
      .convert = convert_hardening<Barlat>}};
 
