@@ -171,8 +171,17 @@ bool LayerReader::find_laws(const ModelPart& part, const Owner& owner, const std
           "use a material that gives all of the stress");
     if (!law->second->in_sheets())
       return error(owner.card, owner.field,
-                   fmt::format("the material of part {} is a foam, which shells cannot have", part.id),
+                   fmt::format("the material of part {} is one of solids, which shells cannot have", part.id),
                    "make the part of solids");
+    if (const int needed = law->second->failing_layers; needed > 0) {
+      if (layered || needed > static_cast<int>(out.zeta.size()))
+        return error(owner.card, owner.field,
+                     fmt::format("NUMINT {} of material {} {} in part {}", needed, mid,
+                                 layered ? "is not supported beside layers of other materials"
+                                         : fmt::format("is never reached by the {} points", out.zeta.size()),
+                                 part.id),
+                     "leave NUMINT blank: all points must fail");
+    }
     laws.push_back(law->second);
   }
   const auto fails = std::find_if(laws.begin(), laws.end(), [](const std::shared_ptr<StrengthLaw>& law) {

@@ -242,6 +242,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     int can_fail = 0;
     for (int p = 0; p < state_.points; ++p) can_fail += layer_of(p).fails >= 0;
     if (!fails_with_all_ && can_fail > 0) rules.law_points = can_fail;
+    if (const int asked = layers_.front().law->failing_layers; asked > 0)
+      rules.law_points = asked * (state_.points / layers());
     auto out = std::make_shared<Erosion>(rules, group_, state_.points,
                                          Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
     out->vanishes(stress_);

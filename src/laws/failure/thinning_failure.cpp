@@ -35,13 +35,24 @@ class ThinningFailure : public StrengthLaw {
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
     of_->update_in_plane_stress(of_law(block), rate_zz);
     if (!(block.dt > 0)) return;
+    Real* const* strain = block.history.data() + kept_;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Real* rate = k == 2 ? rate_zz : block.rate[k];
+#pragma omp simd
+      for (Index i = 0; i < block.count; ++i) strain[k][i] += block.dt * rate[i];
+    }
+    const Real *xx = strain[0], *yy = strain[1], *zz = strain[2], *xy = strain[3],
+               *plastic = block.history[0];
+    const Real per_thinning = 1 / limits_.thinning, per_major = 1 / limits_.major,
+               per_plastic = 1 / of_->failure_limit();
+    Real* ratio = block.history[kept_ + 6];
+#pragma omp simd
     for (Index i = 0; i < block.count; ++i) {
-      Real* const* strain = block.history.data() + kept_;
-      for (std::size_t k = 0; k < 6; ++k) strain[k][i] += block.dt * (k == 2 ? rate_zz[i] : block.rate[k][i]);
-      const Real xx = strain[0][i], yy = strain[1][i], xy = strain[3][i];
-      const Real major = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-      raise(block, i,
-            std::max({plastic_share(block, i), -strain[2][i] / limits_.thinning, major / limits_.major}));
+      const Real half = 0.5 * (xx[i] - yy[i]),
+                 major = 0.5 * (xx[i] + yy[i]) + std::sqrt(half * half + xy[i] * xy[i]);
+      const Real thinned = -zz[i] * per_thinning, drawn = major * per_major, flown = plastic[i] * per_plastic;
+      const Real one = thinned > drawn ? thinned : drawn, most = one > flown ? one : flown;
+      ratio[i] = most > ratio[i] ? most : ratio[i];
     }
   }
 

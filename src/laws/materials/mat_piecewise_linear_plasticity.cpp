@@ -5,7 +5,7 @@
 
 #include "base/indexed_pieces.hpp"
 #include "laws/failure/thinning_failure.hpp"
-#include "laws/materials/strength_cards.hpp"
+#include "laws/materials/mat_piecewise_linear_plasticity.hpp"
 #include "laws/strength/hardening.hpp"
 #include "laws/strength/isotropic_plasticity.hpp"
 #include "laws/strength/rate_factor.hpp"
@@ -273,8 +273,9 @@ struct MatModifiedPiecewiseLinearPlasticity : M {
     ThinningLimits limits;
     if (epsthin > 0) limits.thinning = epsthin;
     if (epsmaj > 0) limits.major = epsmaj;
-    const auto plain = M::law(model);
-    return limits.any() ? fail_by_thinning(plain, limits) : plain;
+    const auto plain = M::law(model), out = limits.any() ? fail_by_thinning(plain, limits) : plain;
+    out->failing_layers = static_cast<int>(numint);
+    return out;
   }
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
     M::check(deck, model, diagnostics);
@@ -282,6 +283,7 @@ struct MatModifiedPiecewiseLinearPlasticity : M {
       if (value < 0)
         deck.error(diagnostics, *this, field, fmt::format("'{:g}' is not supported", value),
                    "values > 0 are limits of each point; means and filtered strains (< 0) are not there");
+    check_failing_layers(deck, *this, numint, diagnostics);
   }
 };
 
@@ -295,6 +297,28 @@ const RegisterStrength<Thinning> mat_modified_piecewise_linear_plasticity{
      flows("1,2.0,2.5,0.25,3.0,0.5\n0.0,0.0,0,0,0,0.5,2.0,0\n\n\n", with_q(102.0 / 29), 24.0 / 29)},
     mat_modified_piecewise_linear_plasticity_table()};
 
+M plain_card(const MatPiecewiseLinearPlasticityFields& card) {
+  M out;
+  static_cast<MatPiecewiseLinearPlasticityFields&>(out) = card;
+  return out;
+}
+
 }  // namespace
+
+std::shared_ptr<StrengthLaw> piecewise_linear_plasticity(const MatPiecewiseLinearPlasticityFields& card,
+                                                         const Model& model) {
+  return plain_card(card).law(model);
+}
+
+void check_piecewise_linear_plasticity(const MatPiecewiseLinearPlasticityFields& card, const Deck& deck,
+                                       const Model& model, Diagnostics& diagnostics) {
+  plain_card(card).check(deck, model, diagnostics);
+}
+
+void check_failing_layers(const Deck& deck, const Entry& card, Real numint, Diagnostics& diagnostics) {
+  if (numint < 0 || numint != std::floor(numint))
+    deck.error(diagnostics, card, "NUMINT", fmt::format("'{:g}' is not supported", numint),
+               "the number of points through the thickness that must fail; 0: all of them");
+}
 
 }  // namespace courant

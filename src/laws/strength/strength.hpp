@@ -75,7 +75,8 @@ class StrengthLaw {
   virtual Real viscosity() const { return 0; }
   /// Of compression waves at rest: sqrt((K + 4G/3)/RO). [L/T]
   Real sound_speed() const;
-  Real ro = 0;  ///< reference density [M/L3]
+  Real ro = 0;             ///< reference density [M/L3]
+  int failing_layers = 0;  ///< points through the thickness that must fail to delete a shell; 0: all
 };
 
 /// A step that a law must answer with this stress, computed by hand from its formula: the generic test
