@@ -1,5 +1,6 @@
 // Every law of strength against its own references, and what must hold for all of them.
 #include "laws/strength/strength.hpp"
+#include "laws/strength/yield_return.hpp"
 
 #include <gtest/gtest.h>
 
@@ -595,4 +596,17 @@ TEST(MatMooneyRivlin, WavesAreNoFasterThanItSays) {
       const Real slope = (point.stress[axis] - before) / e;
       EXPECT_GT(1000 / J * c * c * (1 + 1e-4), slope) << axis << stretch.transpose();
     }
+}
+
+// A yield stress whose equation has no answer within the rounds: NaN, with which a run ends.
+TEST(YieldReturn, APointWithoutAnAnswerIsNoNumber) {
+  ReturnPoints r;
+  r.at.count = 2;
+  for (Index i = 0; i < 2; ++i)
+    r.x[i] = 0.5, r.low[i] = 0, r.high[i] = 1, r.q[i] = 2, r.at.stress[i] = i == 0 ? 1 : 2, r.least[i] = 0;
+  int rounds = 0;
+  find_return([] {}, [](YieldPoints&) {}, [&](int) { return ++rounds > 0; }, r);
+  EXPECT_EQ(rounds, 100);
+  EXPECT_TRUE(std::isnan(r.x[0]));
+  EXPECT_EQ(r.x[1], 0.5) << "on the yield stress";
 }
