@@ -129,7 +129,7 @@ TEST(ContactMeasures, OneSidedContactsCountThicknessByShlthk) {
       }
 }
 
-// K A^2/V of a solid, SLDSTF in the place of K; K A over the longest diagonal of a shell, of a triangle its
+// K A^2/V of a solid, SLDSTF instead of K; K A over the longest diagonal of a shell, of a triangle its
 // edge.
 TEST(ContactMeasures, StiffnessIsThatOfWhatLiesBehindTheFace) {
   for (const bool own : {false, true}) {
