@@ -9,7 +9,7 @@
 
 namespace courant::COURANT_SIMD {
 
-/// ln x of a normal x > 0, by x = 2^n z, 0.7 < z < 1.5, and 2 artanh((z - 1)/(z + 1)) as a series
+/// ln x of a normal x > 0, NaN of NaN, by x = 2^n z, 0.7 < z < 1.5, and 2 artanh((z - 1)/(z + 1)) as a series
 /// (Abramowitz & Stegun 1964, 4.1.27).
 COURANT_INLINE Real natural_logarithm(Real x) {
   constexpr std::uint64_t root_half = 0x3fe6a09e667f3bcd, mantissa = 0x000fffffffffffff;
@@ -33,14 +33,15 @@ COURANT_INLINE Real natural_logarithm(Real x) {
   series = series * t + 2.0 / 7;
   series = series * t + 2.0 / 5;
   series = series * t + 2.0 / 3;
-  return n * ln2_high + (2 * s + (s * t * series + n * ln2_low));
+  const Real none = x - x;  // NaN of NaN
+  return n * ln2_high + (2 * s + (s * t * series + n * ln2_low)) + none;
 }
 
-/// e^x; beyond +-708 as there. By x = n ln 2 + r, |r| < 0.35, and the series of e^r.
+/// e^x; beyond +-708 as there; NaN of NaN. By x = n ln 2 + r, |r| < 0.35, and the series of e^r.
 COURANT_INLINE Real exponential(Real x) {
   constexpr Real most = 708, per_ln2 = 1.4426950408889634, shift = 6755399441055744.0;  // 1.5 2^52: rounds
   constexpr Real ln2_high = 0x1.62e42fefa38p-1, ln2_low = 0x1.ef35793c7673p-45;
-  const Real low = x < most ? x : most, held = low > -most ? low : -most;
+  const Real low = x > most ? most : x, held = low < -most ? -most : low;
   const Real shifted = held * per_ln2 + shift, n = shifted - shift;
   const Real r = held - n * ln2_high - n * ln2_low;
   Real series = 1.0 / 6227020800;
@@ -60,12 +61,12 @@ COURANT_INLINE Real exponential(Real x) {
   return value * std::bit_cast<Real>(power << 52);
 }
 
-/// x^p; 0 for x that is no normal number > 0.
+/// x^p; 0 for x that is no normal number > 0, NaN of NaN.
 COURANT_INLINE Real to_power(Real x, Real p) {
   constexpr Real least = 2.2250738585072014e-308;
   const bool counts = x >= least;
   const Real out = exponential(p * natural_logarithm(counts ? x : 1));
-  return counts ? out : 0;
+  return counts ? out : x - x;
 }
 
 }  // namespace courant::COURANT_SIMD

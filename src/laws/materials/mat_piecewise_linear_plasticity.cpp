@@ -26,7 +26,7 @@ struct YieldStress {
   IndexedPieces factor{};  ///< LCSR, over the rate; empty: none
 
   YieldRate rate() const { return depends_on; }
-  bool steep() const { return depends_on == YieldRate::of_plastic_strain; }
+  bool steep() const { return false; }
   bool smooth() const { return curves.size() == 1 && curves.front().size() == 1 && factor.empty(); }
   /// One curve and no rate: its pieces are walked through, on each of which the increment is linear.
   bool has_increments() const { return depends_on == YieldRate::none; }
@@ -135,9 +135,7 @@ struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
       }
     }
     if (yield.curves.size() > 1 || c > 0 || lcsr != 0)
-      yield.depends_on = vp == 1    ? YieldRate::of_plastic_strain
-                         : vp == -1 ? YieldRate::of_deviator
-                                    : YieldRate::of_strain;
+      yield.depends_on = vp == 0 ? YieldRate::of_flow_and_volume : YieldRate::of_flow;
     auto law = std::make_shared<IsotropicPlasticity<YieldStress>>(ro, E, pr, std::move(yield));
     if (fail > 0 && fail < never_fails) law->fails_at = fail;
     law->shortest_step = tdel;
@@ -225,24 +223,29 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
 // By hand. E = 2.5, PR = 1/4: lambda = G = 1, K = 5/3, 3 G = 3; dt = 1/2. dev e = (2, -1, -1): s_tr = (4, -2,
 // -2), q = 6, at a rate 4. SIGY 3, ETAN 1/2: Ep = 5/8, de = 3/(3 + 5/8) = 24/29, s = 17/29 (4, -2, -2).
 // Points (0, 3) (1/4, 4) (5/4, 4): the first piece, slope 4, would give de = 3/7 > 1/4, so the second: 6 - 3
-// de = 4, de = 2/3, q = 4. Yield stress 2 (de = 4/3, s = 1/3 of s_tr): by LCSR from 1 at 0 to 3 at 8; by a
-// table of 1 at 0 and 3 at 8, or 1 at ln(1/4) and 3 at ln 64. C: e = (3, 0, 0), the mean stress is 5; rate
-// sqrt(2/3) 6 = sqrt(24), of the deviator 4. With C = sqrt(24), P = 1, SIGY = 1 the yield stress is 2, or 1 +
-// 4/sqrt(24). Rate of plastic strain 2 de, C = P = 1: SIGY = 1, Ep = 5/8: 6 - 3 de = 1 + 5/8 de + 2 de, de =
-// 8/9; of a curve alone 6 - 3 de = (1 + 5/8 de)(1 + 2 de), de = (sqrt(56.640625) - 5.625)/2.5.
+// de = 4, de = 2/3, q = 4. Yield stress 2 (q_tr = 8, de = 2) at the rate
+// of flow 2 de = 4: by LCSR from 1 at 0 to 3 at 8; by a table of 1 at 0 and 3 at 8, or 1 at ln(1/4) and 3 at
+// ln 64. C: tr(D) = 6, the mean stress is 5; 2/9 tr(D)^2 = 8, as in uniaxial strain half of 4^2: rate
+// sqrt(24) with VP 0, 4 with VP -1. With C = sqrt(24), P = 1, SIGY = 1 the yield stress is 2, or 1 +
+// 4/sqrt(24), at q_tr = 6 more. C = P = 1: SIGY = 1, Ep = 5/8: 6 - 3 de = 1 + 5/8 de + 2 de, de = 8/9; of a
+// curve alone 6 - 3 de = (1 + 5/8 de)(1 + 2 de), de = (sqrt(56.640625) - 5.625)/2.5.
 const Real faster_alone = (std::sqrt(56.640625) - 5.625) / 2.5;
 constexpr Real on_deviator = 1.8164965809277260;
 const std::string curves =
     "*DEFINE_CURVE\n1\n0.0,1.0\n1.0,1.0\n*DEFINE_CURVE\n2\n0.0,3.0\n1.0,3.0\n*DEFINE_CURVE\n3\n0.0,1.0\n"
     "8.0,3.0\n*DEFINE_CURVE\n4\n0.0,1.0\n1.0,1.625\n*DEFINE_CURVE\n5\n0.0,3.0\n0.25,4.0\n1.25,4.0\n"
     "*DEFINE_TABLE_2D\n6\n0.0,1\n8.0,2\n*DEFINE_TABLE_2D\n7\n-1.3862943611198906,1\n4.1588830833596715,2\n";
-const std::array<Real, 6> pull{2, -1, -1}, a_third{4.0 / 3, -2.0 / 3, -2.0 / 3},
-    two_thirds{8.0 / 3, -4.0 / 3, -4.0 / 3};
+const std::array<Real, 6> pull{2, -1, -1}, two_thirds{8.0 / 3, -4.0 / 3, -4.0 / 3};
 StrengthReference flows(const std::string& cards, const std::array<Real, 6>& after, Real plastic) {
   return {cards + curves, pull, {}, after, {0}, {plastic}};
 }
 std::array<Real, 6> with_q(Real q, Real mean = 0) {
   return {mean + 2 * q / 3, mean - q / 3, mean - q / 3};
+}
+/// Pulled to a trial state with q + 6 and tr(D) dt = `volume`: de = 2, at a rate of flow of 4.
+StrengthReference flows_at_4(const std::string& cards, Real q, Real volume = 0) {
+  const Real e = (q + 6) / 3, mean = volume / 3;
+  return {cards + curves, {e + mean, mean - e / 2, mean - e / 2}, {}, with_q(q, 5 * mean), {0}, {2}};
 }
 const RegisterStrength<M> mat_piecewise_linear_plasticity{
     "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 s:s) <= sigma_y(e, rate) by LCSS, EPS and ES, or SIGY + Ep e, Ep "
@@ -251,19 +254,12 @@ const RegisterStrength<M> mat_piecewise_linear_plasticity{
     "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
     {flows("1,2.0,2.5,0.25,3.0,0.5\n\n\n\n", with_q(102.0 / 29), 24.0 / 29),
      flows("1,2.0,2.5,0.25\n\n0.0,0.25,1.25\n3.0,4.0,4.0\n", two_thirds, 2.0 / 3),
-     flows("1,2.0,2.5,0.25\n,,5\n\n\n", two_thirds, 2.0 / 3),
-     flows("1,2.0,2.5,0.25,1.0\n,,,3\n\n\n", a_third, 4.0 / 3),
-     flows("1,2.0,2.5,0.25\n,,6\n\n\n", a_third, 4.0 / 3),
-     flows("1,2.0,2.5,0.25\n,,7\n\n\n", a_third, 4.0 / 3),
+     flows("1,2.0,2.5,0.25\n,,5\n\n\n", two_thirds, 2.0 / 3), flows_at_4("1,2.0,2.5,0.25,1.0\n,,,3\n\n\n", 2),
+     flows_at_4("1,2.0,2.5,0.25\n,,6\n\n\n", 2), flows_at_4("1,2.0,2.5,0.25\n,,7\n\n\n", 2),
      flows("1,2.0,2.5,0.25,1.0,0.5\n1.0,1.0,,,1\n\n\n", with_q(10.0 / 3), 8.0 / 9),
      flows("1,2.0,2.5,0.25\n1.0,1.0,4,,1\n\n\n", with_q(6 - 3 * faster_alone), faster_alone),
-     {"1,2.0,2.5,0.25,1.0\n4.898979485566356,1.0\n\n\n", {3}, {}, with_q(2, 5), {0}, {4.0 / 3}},
-     {"1,2.0,2.5,0.25,1.0\n4.898979485566356,1.0,,,-1\n\n\n",
-      {3},
-      {},
-      with_q(on_deviator, 5),
-      {0},
-      {(6 - on_deviator) / 3}}},
+     flows_at_4("1,2.0,2.5,0.25,1.0\n4.898979485566356,1.0\n\n\n", 2, 3),
+     flows_at_4("1,2.0,2.5,0.25,1.0\n4.898979485566356,1.0,,,-1\n\n\n", on_deviator, 3)},
     mat_piecewise_linear_plasticity_table()};
 
 /// The same with failure of sheets by thinning, and a number of points that takes the element away.

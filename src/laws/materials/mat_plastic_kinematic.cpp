@@ -23,8 +23,8 @@ class PlasticKinematic : public StrengthLaw {
     ro = density;
     rate_term_.C = a_.C, rate_term_.P = a_.C > 0 ? a_.P : 1;
     law_ = {.lambda = a_.lambda, .G = a_.G, .kinematic = a_.kinematic};
-    if (a_.C > 0) law_.rate = a_.of_plastic_rate ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
-    law_.steep = law_.rate == YieldRate::of_plastic_strain, law_.smooth = true;
+    if (a_.C > 0) law_.rate = YieldRate::of_flow;
+    law_.smooth = true;
   }
   Real bulk_modulus() const override { return a_.lambda + 2 * a_.G / 3; }
   Real shear_modulus() const override { return a_.G; }
@@ -94,7 +94,7 @@ struct MatPlasticKinematic : MatPlasticKinematicFields {
     const Real Ep = E * etan / (E - etan);
     LinearHardening data{.lambda = E * pr / ((1 + pr) * (1 - 2 * pr)), .G = E / (2 * (1 + pr))};
     data.yield = sigy, data.isotropic = beta * Ep, data.kinematic = (1 - beta) * Ep;
-    data.C = src, data.P = srp, data.of_plastic_rate = vp == 1;
+    data.C = src, data.P = srp;
     if (fs > 0 && fs < never_fails) data.fails_at = fs;
     return linear_hardening_law(ro, data);
   }
@@ -116,9 +116,9 @@ struct MatPlasticKinematic : MatPlasticKinematicFields {
 // (2, -1, -1): xi = (4, -2, -2), q = 6, over by 3: de = 3/(3 + 5/8) = 24/29, and s loses 3 de/6 = 12/29 of
 // xi: s = 17/29 (4, -2, -2). Kinematic: alpha = (5/8) de/6 xi = (5/58) xi for BETA 0, half of it for 1/2.
 // A back stress 1 in shear: xi_xy = 2 - 1, q = sqrt(3) = sigma_y: no flow yet.
-// Rates (dt = 1/2): shear e_xy = 2 in 1/2: D_xy = 4, rate sqrt(4/3) 4 = 8/sqrt(3); SRC = that, SRP = 3:
-// factor 2. s_xy = 4, q = 4 sqrt(3), sigma_y = 2 sqrt(3) for SIGY = sqrt(3), ETAN = 0: s_xy = 2. VP 1: SIGY =
-// 1, SRP = 1, ETAN = 0, C dt = 1/2: 6 - 3 de = 1 + 2 de: de = 1, q = 3.
+// Rates (dt = 1/2): shear e_xy = 3: s_xy = 6, q = 6 sqrt(3); SIGY = sqrt(3), ETAN = 0, SRC = 8/sqrt(3), SRP =
+// 3: at a rate of flow SRC, de = 4/sqrt(3), sigma_y = 2 sqrt(3), as q = 6 sqrt(3) - 3 de: s_xy = 2. SIGY = 1,
+// SRP = 1, ETAN = 0, C dt = 1/2: 6 - 3 de = 1 + 2 de: de = 1, q = 3, with VP 0 and 1.
 const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
     "s_tr = s + 2 G dev(D) dt; q = sqrt(3/2 xi:xi) <= (1 + (rate/SRC)^(1/SRP)) (SIGY + BETA Ep e), xi = s - "
     "alpha, Ep = E ETAN/(E - ETAN); return along xi_tr; dalpha = (1 - BETA) Ep de xi/q; pressure by Hooke's "
@@ -150,17 +150,13 @@ const RegisterStrength<MatPlasticKinematic> mat_plastic_kinematic{
       {0.5, 0, 0, 0, 1, 0, 0},
       {0.5, 0, 0, 0, 1, 0, 0}},
      {"1,2.0,2.5,0.25,1.7320508075688772,0.0,1.0\n4.6188021535170063,3.0\n",
-      {0, 0, 0, 2, 0, 0},
+      {0, 0, 0, 3, 0, 0},
       {},
       {0, 0, 0, 2, 0, 0},
       {0},
-      {1.1547005383792515}},
-     {"1,2.0,2.5,0.25,1.0,0.0,1.0\n1.0,1.0,0.0,1\n",
-      {2, -1, -1, 0, 0, 0},
-      {},
-      {2, -1, -1, 0, 0, 0},
-      {0},
-      {1}}},
+      {2.3094010767585034}},
+     {"1,2.0,2.5,0.25,1.0,0.0,1.0\n1.0,1.0,0.0,0\n", {2, -1, -1}, {}, {2, -1, -1, 0, 0, 0}, {0}, {1}},
+     {"1,2.0,2.5,0.25,1.0,0.0,1.0\n1.0,1.0,0.0,1\n", {2, -1, -1}, {}, {2, -1, -1, 0, 0, 0}, {0}, {1}}},
     mat_plastic_kinematic_table()};
 
 }  // namespace

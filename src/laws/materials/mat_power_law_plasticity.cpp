@@ -14,17 +14,12 @@ namespace {
 
 /// sigma_y = K (e0 + e)^N, with the influence of the rate by Cowper and Symonds.
 struct PowerLaw {
-  Real K = 0, N = 0;          ///< [M/LT2], [-]
-  Real e0 = 0;                ///< strain at which yielding begins [-]
-  CowperSymonds rate_term{};  ///< of the deviator, or with `viscous` (VP) of plastic strain
-  bool viscous = false;
-  YieldRate rate() const {
-    if (!rate_term.counts()) return YieldRate::none;
-    return viscous ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
-  }
+  Real K = 0, N = 0;  ///< [M/LT2], [-]
+  Real e0 = 0;        ///< strain at which yielding begins [-]
+  CowperSymonds rate_term{};
+  YieldRate rate() const { return rate_term.counts() ? YieldRate::of_flow : YieldRate::none; }
   bool steep() const { return true; }
-  // over all strain the rate enters by zz, with which the slope may be too small
-  bool smooth() const { return !rate_term.counts() || viscous; }
+  bool smooth() const { return true; }
   bool has_increments() const { return false; }
   Real increment(Real, Real, Real) const { return 0; }
   void at(YieldPoints& points) const {
@@ -44,7 +39,7 @@ struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
     return sigy > 0 ? sigy : std::pow(E / k, 1 / (n - 1));
   }
   std::shared_ptr<StrengthLaw> law() const {
-    PowerLaw yield{.K = k, .N = n, .e0 = first_strain(), .viscous = vp == 1};
+    PowerLaw yield{.K = k, .N = n, .e0 = first_strain()};
     yield.rate_term.C = src, yield.rate_term.P = src > 0 ? srp : 1;
     auto law = std::make_shared<IsotropicPlasticity<PowerLaw>>(ro, E, pr, yield);
     if (epsf > 0 && epsf < never_fails) law->fails_at = epsf;
@@ -66,9 +61,8 @@ struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
 
 // By hand. E = 2.5, PR = 1/4: G = 1, 3 G = 3, dt = 1/2. Pulled by (2, -1, -1): s = (4, -2, -2), q = 6. K = 3,
 // N = 1/2: with a = e0 + e before, 2 - de = sqrt(a + de), de = (5 - sqrt(9 + 4 a))/2. SIGY = 3/2: e0 = 1/4;
-// SIGY = 0: e0 = (2.5/3)^-2 = 1.44; SIGY = 0.01: that. The rate of the deviator is 4; SRC 4, SRP 2 double the
-// yield stress: SIGY = 3/4, a = 1/16: 6 - 3 de = 6 sqrt(a + de), de = 1/2. Rate of plastic strain 2 de, SRC =
-// SRP = 1: the same.
+// SIGY = 0: e0 = (2.5/3)^-2 = 1.44; SIGY = 0.01: that. The rate of flow is 2 de; SRC = 1, SRP 2 or 1 double
+// the yield stress at de = 1/2: SIGY = 3/4, a = 1/16: 6 - 3 de = 6 sqrt(a + de).
 StrengthReference flows_by(const std::string& cards, Real before, Real de) {
   const Real q = 6 - 3 * de;
   return {cards, {2, -1, -1}, {}, {2 * q / 3, -q / 3, -q / 3}, {before}, {before + de}};
@@ -81,7 +75,7 @@ const RegisterStrength<Power> mat_power_law_plasticity{
     {flows_by("1,2.0,2.5,0.25,3.0,0.5\n1.5\n", 0.140625, 0.875),
      flows_by("1,2.0,2.5,0.25,3.0,0.5\n", 0, 0.5 * (5 - std::sqrt(14.76))),
      flows_by("1,2.0,2.5,0.25,3.0,0.5\n0.01\n", 0, 0.5 * (5 - std::sqrt(9.04))),
-     flows_by("1,2.0,2.5,0.25,3.0,0.5,4.0,2.0\n0.75\n", 0, 0.5),
+     flows_by("1,2.0,2.5,0.25,3.0,0.5,1.0,2.0\n0.75\n", 0, 0.5),
      flows_by("1,2.0,2.5,0.25,3.0,0.5,1.0,1.0\n0.75,1.0\n", 0, 0.5)},
     mat_power_law_plasticity_table()};
 

@@ -21,8 +21,7 @@ class JohnsonCook : public StrengthLaw {
       a_.second = 0;
     rate_term_.C = a_.C, rate_term_.P = a_.second;
     law_ = {.lambda = a_.K - 2 * a_.G / 3, .G = a_.G, .steep = true};
-    if (a_.C != 0 || a_.second != 0)
-      law_.rate = a_.of_plastic_rate ? YieldRate::of_plastic_strain : YieldRate::of_deviator;
+    if (a_.C != 0 || a_.second != 0) law_.rate = YieldRate::of_flow;
   }
   bool deviator_only() const override { return !(a_.K > 0); }
   Real bulk_modulus() const override { return a_.K; }

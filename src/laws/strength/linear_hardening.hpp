@@ -13,8 +13,7 @@ struct LinearHardening {
   Real isotropic = 0, kinematic = 0;  ///< shares of the plastic modulus Ep: BETA Ep, (1 - BETA) Ep [M/LT2]
   Real fails_at = std::numeric_limits<Real>::infinity();       ///< plastic strain
   Real fails_at_time = std::numeric_limits<Real>::infinity();  ///< [T]
-  Real C = 0, P = 0;             ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
-  bool of_plastic_rate = false;  ///< VP 1: the rate is that of plastic strain, else that of all strain
+  Real C = 0, P = 0;  ///< of Cowper and Symonds [1/T], [-]; C = 0: no influence of the rate
 };
 
 /// `density` [M/L3]

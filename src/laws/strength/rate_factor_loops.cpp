@@ -1,5 +1,7 @@
 // Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
 // files. Loops without branches, so that they go through registers of several points.
+#include <algorithm>
+
 #include "base/elementary.hpp"
 #include "laws/strength/rate_factor.hpp"
 
@@ -7,7 +9,14 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
+/// Without a rate there is no influence of it.
+bool leave_still(YieldPoints& points) {
+  if (points.still) std::fill_n(points.by_rate, points.count, 0.0);
+  return points.still;
+}
+
 void scale(const CowperSymonds& by, YieldPoints& points) {
+  if (leave_still(points)) return;
   const Real per_C = 1 / by.C, per_P = 1 / by.P, P = by.P;
 #pragma omp simd
   for (Index i = 0; i < points.count; ++i) {
@@ -19,6 +28,7 @@ void scale(const CowperSymonds& by, YieldPoints& points) {
 }
 
 void add(const CowperSymonds& by, Real stress, YieldPoints& points) {
+  if (leave_still(points)) return;
   const Real per_C = 1 / by.C, per_P = 1 / by.P, P = by.P;
 #pragma omp simd
   for (Index i = 0; i < points.count; ++i) {
@@ -55,6 +65,7 @@ void power_hardening(const PowerHardening& of, YieldPoints& points) {
 }
 
 void logarithmic(Real rate0, Real C, Real C2, YieldPoints& points) {
+  if (leave_still(points)) return;
   const Real per_rate0 = 1 / rate0;
 #pragma omp simd
   for (Index i = 0; i < points.count; ++i) {
@@ -68,6 +79,7 @@ void logarithmic(Real rate0, Real C, Real C2, YieldPoints& points) {
 }
 
 void power_of_rate(Real rate0, Real C, YieldPoints& points) {
+  if (leave_still(points)) return;
   const Real per_rate0 = 1 / rate0;
 #pragma omp simd
   for (Index i = 0; i < points.count; ++i) {
@@ -82,7 +94,7 @@ void power_of_rate(Real rate0, Real C, YieldPoints& points) {
 void logarithm(Index count, const Real* rate, Real* out) {
   constexpr Real least = 1e-300;
 #pragma omp simd
-  for (Index i = 0; i < count; ++i) out[i] = natural_logarithm(rate[i] > least ? rate[i] : least);
+  for (Index i = 0; i < count; ++i) out[i] = natural_logarithm(rate[i] < least ? least : rate[i]);
 }
 
 void limit(Real most, const Real* factor, YieldPoints& points) {

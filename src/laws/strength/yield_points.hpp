@@ -5,12 +5,13 @@
 
 namespace courant {
 
-/// The rate on which a yield stress depends.
+/// The rate on which a yield stress depends: of all strain less the elastic part of the deviator. With the
+/// rate of all strain of half a step ago the yield stress would be a viscosity that an explicit step does not
+/// bear (docs/theory.md, viscoplasticity).
 enum class YieldRate {
   none,
-  of_strain,          ///< sqrt(2/3 D:D)
-  of_deviator,        ///< the same of the deviator of D
-  of_plastic_strain,  ///< increment of plastic strain over the step
+  of_flow,            ///< increment of plastic strain over the step, per its length
+  of_flow_and_volume  ///< r with r^2 = that^2 + min(2/9 tr(D)^2, that^2/2), the cap being uniaxial strain
 };
 
 /// Points of a block. In: plastic strain [-] and, where it counts, the rate [1/T]. Out: the yield stress >= 0
@@ -18,6 +19,7 @@ enum class YieldRate {
 /// is infinite where its argument is 0 is given as 0 there.
 struct YieldPoints {
   Index count = 0;
+  bool still = false;  ///< all rates are 0
   Real plastic[block_size], rate[block_size];
   Real stress[block_size], by_strain[block_size], by_rate[block_size];
 };

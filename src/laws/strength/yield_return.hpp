@@ -7,7 +7,9 @@
 // and de = 2/3 m q. With
 //   P = (xx + yy)^2/4,  S = 3 (xx - yy)^2/4 + 3 (xy^2 + yz^2 + zx^2)
 // of the trial stress less the back stress, q^2 = P/f^2 + S/g^2, f = 1 + (E/(3 (1 - nu)) + 2/3 H) m,
-// g = 1 + (2 G + 2/3 H) m. The rate zz, a part of the rate of all strain, follows from m as well.
+// g = 1 + (2 G + 2/3 H) m. The rate zz, a part of the rate of volume, follows from m as well.
+#include <limits>
+
 #include "laws/point_block.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/yield_points.hpp"
@@ -19,8 +21,9 @@ struct ReturnLaw {
   Real lambda = 0, G = 0;  ///< [M/LT2]
   Real kinematic = 0;      ///< the back stress moves by kinematic (de/q) xi; 0: there is none [M/LT2]
   YieldRate rate = YieldRate::none;
-  /// The yield stress rises from its first value with an infinite slope, by a small power of plastic strain
-  /// or rate: Newton's method then is one for the fourth root of x, in which such powers are nearly straight.
+  /// The yield stress rises from its first value with an infinite slope, by a small power of plastic strain:
+  /// Newton's method then is one for the fourth root of x, in which such powers are nearly straight. So it is
+  /// where a rate counts.
   bool steep = false;
   bool smooth = false;  ///< the yield stress has no bend, over plastic strain or rate
   Real elastic_f() const { return G * (3 * lambda + 2 * G) / (3 * (lambda + 2 * G)) * 2; }
@@ -35,16 +38,15 @@ struct ReturnPoints {
   Real low[block_size], high[block_size];  ///< x of a q above, below the yield stress
   Real excess[block_size];                 ///< of q over the yield stress at `low` [M/LT2]
   Real first[block_size];                  ///< the first try is not above this
+  Real volume[block_size];                 ///< tr(D), in the plane at x = 0 [1/T]
   Real least[block_size];  ///< beside which excesses are judged, as beside the yield stress [M/LT2]
   Real q[block_size], fall[block_size];       ///< at x [M/LT2]; -dq/dx
   Real grow[block_size], faster[block_size];  ///< d plastic/dx; d rate/dx
   Real trial_q[block_size];                   ///< in space [M/LT2]
   // in the plane
-  Real P[block_size], S[block_size];             ///< [M2/L2T4]
-  Real per_q[block_size];                        ///< 1/q at x [LT2/M]
-  Real sum[block_size];                          ///< xx + yy of the trial stress less the back stress [M/LT2]
-  Real zz[block_size];                           ///< rate zz of an elastic step [1/T]
-  Real still[block_size], straight[block_size];  ///< rate^2 = still + straight zz + curved zz^2, zz a rate
+  Real P[block_size], S[block_size];  ///< [M2/L2T4]
+  Real per_q[block_size];             ///< 1/q at x [LT2/M]
+  Real sum[block_size];               ///< xx + yy of the trial stress less the back stress [M/LT2]
 };
 
 /// The steps of it, compiled once for each instruction set.
@@ -71,14 +73,20 @@ struct ReturnLoops {
 ReturnLoops return_loops();
 
 /// x of all points, by functions that go through a round: `measure()`, `yield(points)`, which fills in what
-/// YieldPoints declares, and `approach(round)`.
+/// YieldPoints declares, and `approach(round)`. x without an answer becomes NaN, with which the run ends.
 template <class Measure, class Yield, class Approach>
 void find_return(const Measure& measure, const Yield& yield, const Approach& approach, ReturnPoints& r) {
   constexpr int rounds = 100;
   for (int k = 0; k < rounds; ++k) {
     measure();
+    r.at.still = k == 0;
     yield(r.at);
-    if (!approach(k)) break;
+    if (!approach(k)) return;
+  }
+  constexpr Real close = 1e-6;  // of a yield stress that jumps the bounds alone are
+  for (Index i = 0; i < r.at.count; ++i) {
+    const bool on_it = std::abs(r.q[i] - r.at.stress[i]) <= close * (r.at.stress[i] + r.least[i]);
+    if (!on_it && r.high[i] - r.low[i] > close * r.high[i]) r.x[i] = std::numeric_limits<Real>::quiet_NaN();
   }
 }
 
@@ -86,7 +94,7 @@ void find_return(const Measure& measure, const Yield& yield, const Approach& app
 template <class Yield>
 void find_increments(const ReturnLoops& loops, const ReturnLaw& law, const PointBlock& block,
                      const Real* before, PlasticTrial& trial, const Yield& yield) {
-  if (law.rate == YieldRate::of_plastic_strain && !(block.dt > 0)) {
+  if (law.rate != YieldRate::none && !(block.dt > 0)) {
     std::fill_n(trial.plastic, block.count, 0.0);
     return;
   }

@@ -11,30 +11,28 @@ namespace {
 
 constexpr Real none = 1e-300, small = 1e-3;
 
-/// Of rate^2 over the rate zz, with the sum of the rates xx and yy: the factor of zz^2, and of zz and the
-/// sum.
-Real curved(YieldRate rate) {
-  return rate == YieldRate::of_strain ? 2.0 / 3 : 4.0 / 9;
-}
-Real straight(YieldRate rate) {
-  return rate == YieldRate::of_strain ? 0 : -4.0 / 9;
+/// Of rates of flow and their slopes over x those with the part of volume, `v` = tr(D), whose slope is `dv`.
+COURANT_INLINE void add_volume(Real v, Real dv, Real& rate, Real& faster) {
+  const Real flow = rate, square = flow * flow, most = 0.5 * square, part = 2.0 / 9 * v * v;
+  const bool free = part < most;
+  const Real both = std::sqrt(square + (free ? part : most)), at_cap = 1.224744871391589;  // sqrt(3/2)
+  faster = free ? (flow * faster + 2.0 / 9 * v * dv) / (both > none ? both : none) : at_cap * faster;
+  rate = both;
 }
 
 void go(const ReturnLaw& law, const PointBlock& block, ReturnPoints& r) {
   const Real stiffness = 3 * law.G + law.kinematic, dt = block.dt;
-  const Real of_mean = law.rate == YieldRate::of_strain ? 0 : 1.0 / 3;
   const Real *dxx = block.rate[0], *dyy = block.rate[1], *dzz = block.rate[2], *dxy = block.rate[3],
              *dyz = block.rate[4], *dzx = block.rate[5];
 #pragma omp simd
   for (Index i = 0; i < block.count; ++i) {
-    const Real mean = of_mean * (dxx[i] + dyy[i] + dzz[i]);
+    const Real volume = dxx[i] + dyy[i] + dzz[i], mean = volume / 3;
     const Real a = dxx[i] - mean, b = dyy[i] - mean, c = dzz[i] - mean;
     const Real rate = std::sqrt(2.0 / 3 * (a * a + b * b + c * c) +
                                 4.0 / 3 * (dxy[i] * dxy[i] + dyz[i] * dyz[i] + dzx[i] * dzx[i]));
     r.x[i] = r.low[i] = r.excess[i] = 0, r.high[i] = r.trial_q[i] / stiffness;
     r.least[i] = small * r.trial_q[i] + none;
-    r.first[i] = rate * dt;
-    r.at.rate[i] = rate, r.faster[i] = 0;
+    r.first[i] = rate * dt, r.volume[i] = volume;
   }
 }
 
@@ -46,9 +44,12 @@ void measure(const ReturnLaw& law, Real dt, const Real* before, ReturnPoints& r)
     r.fall[i] = stiffness, r.grow[i] = 1;
     r.at.plastic[i] = before[i] + r.x[i];
   }
-  if (law.rate != YieldRate::of_plastic_strain) return;
+  if (law.rate == YieldRate::none) return;
 #pragma omp simd
   for (Index i = 0; i < r.at.count; ++i) r.at.rate[i] = r.x[i] * per_dt, r.faster[i] = per_dt;
+  if (law.rate != YieldRate::of_flow_and_volume) return;
+#pragma omp simd
+  for (Index i = 0; i < r.at.count; ++i) add_volume(r.volume[i], 0, r.at.rate[i], r.faster[i]);
 }
 
 template <bool moves>
@@ -80,18 +81,16 @@ void go_in_plane(const ReturnLaw& law, const PointBlock& block, Real* const* alp
     r.least[i] = small * std::sqrt(r.P[i] + r.S[i]) + none;
   }
   if (law.rate == YieldRate::none) return;
-  const Real of_sum = law.rate == YieldRate::of_strain ? 0 : 2.0 / 9, of_both = straight(law.rate);
   const Real dt = block.dt;
 #pragma omp simd
   for (Index i = 0; i < block.count; ++i) {
     const Real sum = dxx[i] + dyy[i];
-    r.zz[i] = -across * sum;
-    r.still[i] = 2.0 / 3 * (dxx[i] * dxx[i] + dyy[i] * dyy[i]) - of_sum * sum * sum +
-                 4.0 / 3 * (dxy[i] * dxy[i] + dyz[i] * dyz[i] + dzx[i] * dzx[i]);
-    r.straight[i] = of_both * sum;
+    r.volume[i] = (1 - across) * sum;
     // m where all strain is plastic, without change of volume
-    const Real square = r.still[i] + (4.0 / 9 - of_both) * sum * sum, q = std::sqrt(r.P[i] + r.S[i]);
-    r.first[i] = 1.5 * dt * std::sqrt(square > 0 ? square : 0) / (q > none ? q : none);
+    const Real square = 2.0 / 3 * (dxx[i] * dxx[i] + dyy[i] * dyy[i] + sum * sum) +
+                        4.0 / 3 * (dxy[i] * dxy[i] + dyz[i] * dyz[i] + dzx[i] * dzx[i]);
+    const Real q = std::sqrt(r.P[i] + r.S[i]);
+    r.first[i] = 1.5 * dt * std::sqrt(square) / (q > none ? q : none);
   }
 }
 
@@ -115,23 +114,16 @@ void measure_in_plane(const ReturnLaw& law, Real dt, const Real* before, ReturnP
     r.grow[i] = 2.0 / 3 * (q - r.x[i] * fall);
   }
   if (law.rate == YieldRate::none) return;
-  if (law.rate == YieldRate::of_plastic_strain) {
-    const Real per_dt = 1 / dt;
+  const Real per_dt = 1 / dt;
 #pragma omp simd
-    for (Index i = 0; i < count; ++i)
-      r.at.rate[i] = 2.0 / 3 * per_dt * r.x[i] * r.q[i], r.faster[i] = per_dt * r.grow[i];
-    return;
-  }
-  const Real quadratic = curved(law.rate);
+  for (Index i = 0; i < count; ++i)
+    r.at.rate[i] = 2.0 / 3 * per_dt * r.x[i] * r.q[i], r.faster[i] = per_dt * r.grow[i];
+  if (law.rate != YieldRate::of_flow_and_volume) return;
   const Real per_x = law.elastic_f() / ((3 * law.lambda + 2 * law.G) * dt);
 #pragma omp simd
   for (Index i = 0; i < count; ++i) {
     const Real f = 1 / (1 + of_f * r.x[i]), slope = -per_x * f * r.sum[i];
-    const Real zz = r.zz[i] + r.x[i] * slope;
-    const Real square = r.still[i] + (r.straight[i] + quadratic * zz) * zz;
-    const Real rate = std::sqrt(square > 0 ? square : 0);
-    r.at.rate[i] = rate;
-    r.faster[i] = (0.5 * r.straight[i] + quadratic * zz) * slope * f / (rate > none ? rate : none);
+    add_volume(r.volume[i] + r.x[i] * slope, slope * f, r.at.rate[i], r.faster[i]);
   }
 }
 
@@ -178,12 +170,13 @@ COURANT_INLINE Real next_x(const ReturnPoints& r, Index i, Real over, Real low, 
 template <bool plane, bool steep, bool of_rate>
 bool approach(bool smooth, int round, ReturnPoints& r) {
   constexpr Real round_off = 1e-15;
-  // before the last step, which squares it where yield stresses have no bend
-  const Real close = smooth ? 1e-7 : 1e-9;
+  // before the last step, which squares it where yield stresses have no bend; 3e-4 leaves 4e-7 with a fifth
+  // root of the rate
+  const Real close = !smooth ? 1e-9 : of_rate ? 3e-4 : 1e-7;
   constexpr Real near = 1e-6;
   // beyond, every second step halves the interval, whatever the yield stress is like
   constexpr int quick = 12;
-  const Real halved = round > quick && round % 2 == 0 ? near : 1 / none;
+  const Real halved = round > quick && round % 2 == 0 ? (close > near ? close : near) : 1 / none;
   Real most = 0;
 #pragma omp simd reduction(max : most)
   for (Index i = 0; i < r.at.count; ++i) {
@@ -202,14 +195,26 @@ bool approach(bool smooth, int round, ReturnPoints& r) {
   return most > 0;
 }
 
-/// The first x is not above that of all strain, which is near where the rate counts much.
-void hold_first(ReturnPoints& r) {
+/// From x = 0, where no rate counts, to the x of a rate of all strain, which is near where the rate counts
+/// much.
+template <bool plane>
+bool start(ReturnPoints& r) {
   constexpr Real part = 1e-6;
-#pragma omp simd
+  Real any = 0;
+#pragma omp simd reduction(max : any)
   for (Index i = 0; i < r.at.count; ++i) {
-    const Real least = part * r.x[i], held = r.first[i] < r.x[i] ? r.first[i] : r.x[i];
-    r.x[i] = held > least ? held : least;
+    const Real yield = r.at.stress[i], over = r.q[i] - yield, rise = r.at.by_strain[i] * r.grow[i];
+    const bool yields = over > 0;
+    const Real fall = plane ? r.fall[i] * yield * r.per_q[i] : r.fall[i];
+    const Real slope = fall + rise > none ? fall + rise : none, newton = over / slope;
+    const Real most = newton < r.high[i] ? newton : r.high[i], least = part * most;
+    const Real held = r.first[i] < most ? r.first[i] : most, x = held > least ? held : least;
+    r.excess[i] = yields ? over : 0;
+    r.high[i] = yields ? r.high[i] : 0;
+    r.x[i] = yields ? x : 0;
+    any = yields ? 1 : any;
   }
+  return any > 0;
 }
 
 template <bool plane>
@@ -217,11 +222,7 @@ bool approach_any(const ReturnLaw& law, int round, ReturnPoints& r) {
   if (law.rate == YieldRate::none)
     return law.steep ? approach<plane, true, false>(law.smooth, round, r)
                      : approach<plane, false, false>(true, round, r);
-  // slopes are not those of the rate zz everywhere, so that the last step squares nothing
-  if (!law.steep) return approach<plane, false, true>(false, round, r);
-  const bool goes_on = approach<plane, true, true>(law.smooth, round, r);
-  if (round == 0 && law.rate == YieldRate::of_plastic_strain) hold_first(r);
-  return goes_on;
+  return round == 0 ? start<plane>(r) : approach<plane, true, true>(law.smooth, round, r);
 }
 
 template <bool moves>

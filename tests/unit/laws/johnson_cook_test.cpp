@@ -75,8 +75,7 @@ TEST(MatJohnsonCook, HasTheFlowStressOfCopper) {
 TEST(MatJohnsonCook, FollowsTheOtherFormsOfTheRate) {
   const auto flow = [](const char* cards, Real rate) {
     HydroPoint point(law_from_cards("MAT_JOHNSON_COOK", cards));
-    point.stress[3] = 1e3;  // far outside
-    point.shear(rate * std::sqrt(3.0) / 2, 1e-9);
+    for (int k = 0; k < 1000; ++k) point.shear(rate * std::sqrt(3.0) / 2, 1e-5 / rate);  // until all is flow
     return point.q();
   };
   const Real x = std::log(50.0);
@@ -163,9 +162,8 @@ TEST(MatJohnsonCook, RatesGoWithTheUnitsOfIncludedFiles) {
     if (!full && kind.keyword != "MAT_SIMPLIFIED_JOHNSON_COOK") continue;
     // densities and stresses change, too: M/L3 by 1, M/LT2 by 1e6; G 1e12, A 1e8
     HydroPoint point(kind.all(deck, Model()).at(0).second);
-    point.stress[3] = 1e9;
     const Real rate = 1e5;
-    point.shear(rate * std::sqrt(3.0) / 2, 1e-15);
+    for (int k = 0; k < 1000; ++k) point.shear(rate * std::sqrt(3.0) / 2, 1e-5 / rate);
     const Real factor = full ? 1 + std::pow(rate / 40e3, 0.2) : 1 + 0.5 * std::log(rate / 1e3);
     EXPECT_NEAR(point.q() / (1e8 * factor), 1, 1e-9) << kind.keyword;
   }

@@ -1,7 +1,9 @@
 // Influences of the rate in the loops of each instruction set, against the functions of the C library.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/instruction_set.hpp"
 #include "laws/strength/rate_factor.hpp"
@@ -66,6 +68,29 @@ TEST(RateFactor, LoopsAgreeWithTheLibrary) {
       if (rate > 0) expect_near(logarithm[i], std::log(rate), i);
     }
     EXPECT_LT(logarithm[1], -600);
+  }
+  use_instruction_set(instruction_sets().back());
+}
+
+// What is no number stays none, so that a run with it ends.
+TEST(RateFactor, NothingComesOfNaN) {
+  for (const InstructionSet set : instruction_sets()) {
+    use_instruction_set(set);
+    const RateLoops loops = rate_loops();
+    const Real nan = std::numeric_limits<Real>::quiet_NaN();
+    YieldPoints points = many_points();
+    std::fill_n(points.rate, points.count, nan), std::fill_n(points.plastic, points.count, nan);
+    loops.scale({40, 5}, points);
+    Real logarithm[block_size];
+    loops.logarithm(points.count, points.rate, logarithm);
+    YieldPoints power = many_points();
+    std::fill_n(power.plastic, power.count, nan);
+    loops.power_law(2, 1e-3, 0.3, power);
+    for (Index i = 0; i < points.count; ++i) {
+      EXPECT_TRUE(std::isnan(points.stress[i])) << i;
+      EXPECT_TRUE(std::isnan(logarithm[i])) << i;
+      EXPECT_TRUE(std::isnan(power.stress[i])) << i;
+    }
   }
   use_instruction_set(instruction_sets().back());
 }

@@ -1,5 +1,6 @@
 // Every law of strength against its own references, and what must hold for all of them.
 #include "laws/strength/strength.hpp"
+#include "laws/strength/yield_return.hpp"
 
 #include <gtest/gtest.h>
 
@@ -112,6 +113,9 @@ Real contract(const Tensor& a, const Tensor& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
+/// What the equation of a yield stress that depends on the rate leaves.
+constexpr Real with_rates = 1e-7;
+
 /// A law whose stress follows from the strain since the start.
 bool is_hyperelastic(const StrengthLaw& law) {
   const auto kept = law.history();
@@ -152,9 +156,12 @@ TEST(StrengthRegistry, EveryLawGivesItsReferenceValues) {
     ASSERT_LE(r.history.size(), point.history.size()) << kind.keyword;
     std::copy(r.history.begin(), r.history.end(), point.history.begin());
     point.strain(r.strain);
-    expect_near(point.stress, r.after, 1e-12, kind.keyword);
+    // equations with rates are solved so closely (yield_return_loops.cpp)
+    const auto kept = law.history();
+    const Real within = !kept.empty() && kept.front().name == "plastic_strain" ? with_rates : 1e-12;
+    expect_near(point.stress, r.after, within, kind.keyword);
     for (std::size_t k = 0; k < r.new_history.size(); ++k)
-      EXPECT_NEAR(point.history[k], r.new_history[k], 1e-12) << kind.keyword;
+      EXPECT_NEAR(point.history[k], r.new_history[k], within) << kind.keyword;
   });
 }
 
@@ -433,7 +440,7 @@ TEST(MatPlasticKinematic, WithAndWithoutHardeningByPlasticRateSolvesItsEquation)
       for (int k = 0; k < 3; ++k) xi[k] -= mean;
       const Real q = std::sqrt(1.5 * contract(xi, xi));
       EXPECT_GT(de, 0);
-      EXPECT_NEAR(q, (1 + std::pow(de / (40 * dt), 1 / P)) * (0.3 + 0.5 * Ep * de), 1e-9 * q)
+      EXPECT_NEAR(q, (1 + std::pow(de / (40 * dt), 1 / P)) * (0.3 + 0.5 * Ep * de), with_rates * q)
           << P << " " << dt;
     }
 }
@@ -466,26 +473,24 @@ const std::string curves_of_rates =
 
 struct RateCase {
   const char* cards;
-  std::function<Real(Real plastic, Real strain_rate, Real plastic_rate)> yield;
+  std::function<Real(Real plastic, Real plastic_rate)> yield;
 };
-const RateCase rate_cases[] = {{"1,1.0,260.0,0.3\n,,3\n\n\n",
-                                [](Real e, Real r, Real) {
-                                  const Real w = std::min(r / 10, 1.0);
-                                  return (1 - w) * (1 + e) + w * (3 + 0.5 * e);
-                                }},
-                               {"1,1.0,260.0,0.3\n,,3,,1\n\n\n",
-                                [](Real e, Real, Real p) {
-                                  const Real w = std::min(p / 10, 1.0);
-                                  return (1 - w) * (1 + e) + w * (3 + 0.5 * e);
-                                }},
-                               {"1,1.0,260.0,0.3\n,,1,4\n\n\n",
-                                [](Real e, Real r, Real) { return (1 + e) * (1 + std::min(r / 5, 1.0)); }},
-                               {"1,1.0,260.0,0.3\n2.0,3.0,1,,1\n\n\n",
-                                [](Real e, Real, Real p) { return (1 + e) * (1 + std::cbrt(p / 2)); }},
-                               {"1,1.0,260.0,0.3,0.5\n2.0,3.0,1,,1\n\n\n",
-                                [](Real e, Real, Real p) { return 1 + e + 0.5 * std::cbrt(p / 2); }},
-                               {"1,1.0,260.0,0.3\n2.0,3.0,1\n\n\n",
-                                [](Real e, Real r, Real) { return (1 + e) * (1 + std::cbrt(r / 2)); }}};
+const RateCase rate_cases[] = {
+    {"1,1.0,260.0,0.3\n,,3\n\n\n",
+     [](Real e, Real r) {
+       const Real w = std::min(r / 10, 1.0);
+       return (1 - w) * (1 + e) + w * (3 + 0.5 * e);
+     }},
+    {"1,1.0,260.0,0.3\n,,3,,1\n\n\n",
+     [](Real e, Real p) {
+       const Real w = std::min(p / 10, 1.0);
+       return (1 - w) * (1 + e) + w * (3 + 0.5 * e);
+     }},
+    {"1,1.0,260.0,0.3\n,,1,4\n\n\n", [](Real e, Real r) { return (1 + e) * (1 + std::min(r / 5, 1.0)); }},
+    {"1,1.0,260.0,0.3\n2.0,3.0,1,,1\n\n\n", [](Real e, Real p) { return (1 + e) * (1 + std::cbrt(p / 2)); }},
+    {"1,1.0,260.0,0.3,0.5\n2.0,3.0,1,,1\n\n\n",
+     [](Real e, Real p) { return 1 + e + 0.5 * std::cbrt(p / 2); }},
+    {"1,1.0,260.0,0.3\n2.0,3.0,1\n\n\n", [](Real e, Real r) { return (1 + e) * (1 + std::cbrt(r / 2)); }}};
 
 }  // namespace
 
@@ -501,7 +506,7 @@ TEST(MatPiecewiseLinearPlasticity, StaysOnTheYieldStressOfItsRate) {
         point.strain({0, 0, 0, std::sqrt(0.75) * rate * point.dt, 0, 0});
         const Real e = point.history[0], q = std::sqrt(3.0) * point.stress[3];
         if (k > 3) {
-          EXPECT_NEAR(q, a.yield(e, rate, (e - before) / point.dt), 1e-11) << a.cards << rate;
+          EXPECT_NEAR(q, a.yield(e, (e - before) / point.dt), with_rates) << a.cards << rate;
         }
       }
     }
@@ -591,4 +596,17 @@ TEST(MatMooneyRivlin, WavesAreNoFasterThanItSays) {
       const Real slope = (point.stress[axis] - before) / e;
       EXPECT_GT(1000 / J * c * c * (1 + 1e-4), slope) << axis << stretch.transpose();
     }
+}
+
+// A yield stress whose equation has no answer within the rounds: NaN, with which a run ends.
+TEST(YieldReturn, APointWithoutAnAnswerIsNoNumber) {
+  ReturnPoints r;
+  r.at.count = 2;
+  for (Index i = 0; i < 2; ++i)
+    r.x[i] = 0.5, r.low[i] = 0, r.high[i] = 1, r.q[i] = 2, r.at.stress[i] = i == 0 ? 1 : 2, r.least[i] = 0;
+  int rounds = 0;
+  find_return([] {}, [](YieldPoints&) {}, [&](int) { return ++rounds > 0; }, r);
+  EXPECT_EQ(rounds, 100);
+  EXPECT_TRUE(std::isnan(r.x[0]));
+  EXPECT_EQ(r.x[1], 0.5) << "on the yield stress";
 }
