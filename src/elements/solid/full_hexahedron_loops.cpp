@@ -72,7 +72,7 @@ COURANT_INLINE void begin_of(Index k, Real dt, bool heats, PointScratch& scratch
   for (int m = 0; m < 6; ++m) opening += dot(w[m], middle.g[m]);
   store(scratch.mean_trace + k, opening / middle.V64);
   store(scratch.middle_volume + k, 0.015625 * middle.V64);
-  for (auto& force : scratch.force) store(force + k, all(0));
+  for (int m = 0; m < 21; ++m) store(scratch.force[m] + k, all(0));
   store(scratch.pressure + k, all(0)), store(scratch.fastest + k, all(0)), store(scratch.work + k, all(0));
 }
 

@@ -50,7 +50,9 @@ struct SolidControl {
 
 /// What a thread keeps of the block it works on, from one loop to the next.
 struct SolidScratch {
-  static constexpr int rows = 27;        ///< nine vectors
+  /// Of nine vectors, and two more: with 27 the arrays behind would meet those before in the same lines of
+  /// the cache.
+  static constexpr int rows = 29;
   alignas(64) Real rate[6][block_size];  ///< D of mid-step in the axes at its end: xx yy zz xy yz zx [1/T]
   /// Of hexahedra modes 1 to 7 of x, of others vectors of their own; the first three are 1 and all others 0
   /// in an element that is taken for one at rest. [L]
