@@ -151,7 +151,8 @@ void build_solids(const Model& model, const std::vector<SolidPart>& parts, const
     const int corners = parts[k].formulation->corners;
     ElementGroup& group =
         *world.groups.emplace_back(std::make_unique<ElementGroup>(set, static_cast<Index>(k), corners));
-    group.shares = parts[k].formulation->mass_shares;
+    if (const auto& shares = parts[k].formulation->mass_shares; shares[0] > 0)
+      group.shares.assign(shares, shares + corners);
     for (Index e = 0; e < group.size(); ++e) {
       const ModelSolid& solid = *of_part[k][e];
       group.id[e] = solid.id;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace courant {
 
@@ -13,17 +12,17 @@ std::vector<SolidFormulation>& solid_formulations() {
   return all;
 }
 
-void add_solid_formulation(SolidFormulation formulation) {
+RegisterSolidFormulation::RegisterSolidFormulation(const SolidFormulation& formulation) {
   std::vector<SolidFormulation>& all = solid_formulations();
   for (const Elform& own : formulation.elforms)
     for (const SolidFormulation& other : all)
       for (const Elform& known : other.elforms)
-        if (known.number == own.number)
+        if (own.number != 0 && known.number == own.number)
           throw std::logic_error(fmt::format("ELFORM {} of solids is registered twice", own.number));
   const auto later = [&](const SolidFormulation& other) {
-    return formulation.elforms.front().number < other.elforms.front().number;
+    return formulation.elforms[0].number < other.elforms[0].number;
   };
-  all.insert(std::find_if(all.begin(), all.end(), later), std::move(formulation));
+  all.insert(std::find_if(all.begin(), all.end(), later), formulation);
 }
 
 }  // namespace courant

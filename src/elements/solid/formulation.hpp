@@ -9,7 +9,7 @@ namespace courant {
 
 /// A value of ELFORM.
 struct Elform {
-  int number = 1;
+  int number = 0;            ///< 0: none
   int nodes = 0;             ///< different nodes of its elements; 0: any number up to 8
   const char* shape = "";    ///< what elements of so many nodes are called
   const char* offer = "";    ///< of messages that list what there is; empty: another entry names it
@@ -18,7 +18,7 @@ struct Elform {
 };
 
 struct SolidFormulation {
-  std::vector<Elform> elforms;
+  Elform elforms[4]{};  ///< 0 behind the last
   /// Of a group: 8 in LS-DYNA's order, of which nodes may repeat; 4 of tetrahedra, 6 of pentahedra (N1 to N4,
   /// N5, N7); 10 of tetrahedra with nodes on their edges.
   int corners = 8;
@@ -26,24 +26,22 @@ struct SolidFormulation {
   /// Of the two the one that goes with `points`, for the machine the program runs on.
   OnePointLoops (*one_point)() = nullptr;
   PointLoops (*several)() = nullptr;
-  bool has_modes = false;           ///< motions without a strain at the points, for hourglass control
-  bool nodal_pressure = false;      ///< of tetrahedra: pressures are means over nodes (nodal_pressure.hpp)
-  std::vector<Real> mass_shares{};  ///< of corners [-]; empty: equal for different nodes
-  Real resolved_length = 1;         ///< of bulk viscosity, over the cube root of the volume [-]
+  bool has_modes = false;       ///< motions without a strain at the points, for hourglass control
+  bool nodal_pressure = false;  ///< of tetrahedra: pressures are means over nodes (nodal_pressure.hpp)
+  Real mass_shares[SolidMesh::most_corners]{};  ///< of corners [-]; 0: equal for different nodes
+  Real resolved_length = 1;                     ///< of bulk viscosity, over the cube root of the volume [-]
   /// How many points must fail by their law (FS) to delete an element; 0: all. Few, where the others leave
   /// motions without stiffness.
   int failing_points = 0;
   bool linear_dilatation = false;  ///< SolidControl::dilatation counts
 };
 
-void add_solid_formulation(SolidFormulation formulation);
 /// In the order of their first ELFORM, whatever files are linked first.
 std::vector<SolidFormulation>& solid_formulations();
 
+/// Nothing of it is inlined: files of loops are compiled with flags of their own.
 struct RegisterSolidFormulation {
-  explicit RegisterSolidFormulation(SolidFormulation formulation) {
-    add_solid_formulation(std::move(formulation));
-  }
+  explicit RegisterSolidFormulation(const SolidFormulation& formulation);
 };
 
 }  // namespace courant

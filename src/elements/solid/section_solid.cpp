@@ -22,7 +22,7 @@ struct Found {
 Found find_elform(int number) {
   for (const SolidFormulation& one : solid_formulations())
     for (const Elform& elform : one.elforms)
-      if (elform.number == number) return {&one, &elform};
+      if (number != 0 && elform.number == number) return {&one, &elform};
   return {};
 }
 
