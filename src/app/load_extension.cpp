@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "contact/interface_law.hpp"
+#include "elements/solid/formulation.hpp"
 #include "extension/additions.hpp"
 #include "extension/compiled_against.hpp"
 #include "keyword/registry.hpp"
@@ -23,7 +24,7 @@ namespace {
 
 std::size_t registered() {
   return keyword_registry().size() + world_builders().size() + ascii_histories().size() +
-         interface_law_registry().size();
+         interface_law_registry().size() + solid_formulations().size();
 }
 
 /// A name that is there already and again among the keywords from `first` on; "" if none is.

@@ -116,7 +116,8 @@ void build_elements(const Deck& deck, const Model& model, World& world, Diagnost
   std::vector<bool> by_pressure;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     if (model.parts[k].null) that_deform[k] = nullptr;
-    by_pressure.push_back(solids[k].pressure != nullptr || solids[k].nodal);
+    by_pressure.push_back(solids[k].pressure != nullptr ||
+                          (solids[k].law && solids[k].formulation->nodal_pressure));
   }
   ElementOptions options{mass_scaling_of(deck), failure_rules(deck, model, that_deform, diagnostics),
                          stiffness_damping(deck, model, that_deform, by_pressure, diagnostics),

@@ -23,7 +23,7 @@ PointReport mean_of(const std::vector<PointReport>& points);
 
 struct ElementReport {
   bool deleted = false;  ///< all numbers are 0 then
-  /// Of solids one (the mean over its points) or eight; of shells one for each layer from the lower face to
+  /// Of solids one (the mean over its points) or all; of shells one for each layer from the lower face to
   /// the upper, the mean over the points in the plane; of beams those of the section, if it has any.
   std::vector<PointReport> points{};
   /// Of beams in their middle, with which the part on the side of end 2 acts on the other: pull, shear forces
@@ -33,7 +33,7 @@ struct ElementReport {
 
 struct ElementReportOptions {
   bool local_axes = false;  ///< stress of shells in the axes of the element, else in global ones
-  bool all_points = false;  ///< the eight points of solids, not their mean
+  bool all_points = false;  ///< the points of solids that have several, not their mean
 };
 
 /// A pass over a group of elements.

@@ -125,9 +125,9 @@ class NonReflectingReader {
     const Vec n = area.normalized();
     const Matrix along = n * n.transpose(), across = Matrix::Identity() - along;
     const Matrix C =
-        speeds->ro * area.norm() / static_cast<Real>(nodes.size()) *
+        speeds->ro * area.norm() *
         ((card.ad == 0 ? speeds->dilatation : 0) * along + (card.as == 0 ? speeds->shear : 0) * across);
-    for (const Index node : nodes) {
+    for (const auto& [node, share] : shares_of(nodes)) {
       const Index at = world_node_.at(model_.nodes[static_cast<std::size_t>(node)].id);
       if (world_.nodes.follow[at] != 0) {
         error(card,
@@ -136,9 +136,19 @@ class NonReflectingReader {
               "leave its faces out");
         return false;
       }
-      damping_.try_emplace(at, Matrix::Zero()).first->second += C;
+      damping_.try_emplace(at, Matrix::Zero()).first->second += share * C;
     }
     return true;
+  }
+  /// Of the area of a face: equal ones, or as four triangles where it has nodes on its edges.
+  std::map<Index, Real> shares_of(const std::set<Index>& corners) const {
+    std::map<Index, Real> out, of_four;
+    for (const Index a : corners) {
+      out[a] = 1 / static_cast<Real>(corners.size()), of_four[a] = 1.0 / 12;
+      for (const Index b : corners)
+        if (const auto found = on_edge_.find({a, b}); found != on_edge_.end()) of_four[found->second] = 0.25;
+    }
+    return corners.size() == 3 && of_four.size() == 6 ? of_four : out;
   }
 
   /// Of the one solid that has this face; nothing: there is none, or the face lies between two.
@@ -169,6 +179,7 @@ class NonReflectingReader {
   Diagnostics& diagnostics_;
   std::map<Id, Index> world_node_;
   std::unordered_map<Index, std::vector<std::size_t>> solids_of_;  ///< of nodes of the model
+  std::map<std::array<Index, 2>, Index> on_edge_ = nodes_on_edges(model_.solids);
   std::set<std::set<Index>> faces_;
   std::map<Index, Matrix> damping_;  ///< of nodes of the world [M/T]
 };

@@ -35,6 +35,7 @@ const RegisterKeyword<LoadShell> load_shell_keyword{load_shell_element_table()};
 /// A pressure and where it acts: corners as nodes of the world, of a triangle the third again.
 struct PressureFace {
   std::array<Index, 4> node{};
+  std::array<Index, 3> on_edge{-1, -1, -1};  ///< of faces of tetrahedra of ten nodes: 12, 23, 31; -1: none
   std::size_t load = 0;
   Index blast = -1;  ///< among the waves; -1: the load presses
   int corners() const { return node[2] == node[3] ? 3 : 4; }
@@ -52,6 +53,24 @@ struct BlastOnFace {
   Real scale = 1;
 };
 
+/// The integral of N n dA of a node of a triangle of six nodes, corners first, then those on edges 12, 23,
+/// 31: three points, exact where it is flat. [L2]
+Vec area_of_node(const std::array<Vec, 6>& x, std::size_t node) {
+  Vec out = Vec::Zero();
+  for (std::size_t point = 0; point < 3; ++point) {
+    std::array<Real, 3> L{1.0 / 6, 1.0 / 6, 1.0 / 6};
+    L[point] = 2.0 / 3;
+    std::array<Vec, 3> slope;  // by L1, L2, L3, as if they were independent
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;  // edge 3 + a joins a and b, 3 + c joins c and a
+      slope[a] = (4 * L[a] - 1) * x[a] + 4 * L[b] * x[3 + a] + 4 * L[c] * x[3 + c];
+    }
+    const Real N = node < 3 ? L[node] * (2 * L[node] - 1) : 4 * L[node - 3] * L[(node - 2) % 3];
+    out += N / 6 * (slope[1] - slope[0]).cross(slope[2] - slope[0]);
+  }
+  return out;
+}
+
 /// -p A n, half the cross product of the diagonals, in equal shares for the corners. Each node works out the
 /// faces it is a corner of, in the order of the deck: the same bits on any number of threads.
 class SegmentPressure : public Force, public EnergyTerm {
@@ -66,9 +85,12 @@ class SegmentPressure : public Force, public EnergyTerm {
         blasts_(std::move(blasts)),
         nodes_(&world.nodes) {
     std::vector<Index> node, face;
-    for (std::size_t k = 0; k < faces_.size(); ++k)
+    for (std::size_t k = 0; k < faces_.size(); ++k) {
       for (int c = 0; c < faces_[k].corners(); ++c)
         node.push_back(faces_[k].node[static_cast<std::size_t>(c)]), face.push_back(static_cast<Index>(k));
+      for (const Index n : faces_[k].on_edge)
+        if (n >= 0) node.push_back(n), face.push_back(static_cast<Index>(k));
+    }
     std::vector<Index> order;
     counting_sort(node, world.nodes.size(), first_, order);
     for (const Index k : order) of_node_.push_back(face[static_cast<std::size_t>(k)]);
@@ -111,9 +133,19 @@ class SegmentPressure : public Force, public EnergyTerm {
       const Vec area = f.corners() == 3 ? Vec((x(1) - x(0)).cross(x(2) - x(0)) / 2)
                                         : Vec((x(2) - x(0)).cross(x(3) - x(1)) / 2);
       const Real p = f.blast < 0 ? pressure_[f.load] : blast_on(f, area);
-      out -= p / f.corners() * area;
+      out -= f.on_edge[0] < 0 ? Vec(p / f.corners() * area) : Vec(p * of_six(f, n));
     }
     return out;
+  }
+  Vec of_six(const PressureFace& f, Index n) const {
+    std::array<Vec, 6> x;
+    std::size_t at = 0;
+    for (std::size_t c = 0; c < x.size(); ++c) {
+      const Index node = c < 3 ? f.node[c] : f.on_edge[c - 3];
+      x[c] = nodes_->x.vec(node);
+      if (node == n) at = c;
+    }
+    return area_of_node(x, at);
   }
 
   Real blast_on(const PressureFace& f, const Vec& area) const {
@@ -151,6 +183,12 @@ class PressureReader {
                  Diagnostics& diagnostics)
       : charges(std::move(sources)), deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (Index n = 0; n < world.nodes.size(); ++n) world_node_[world.nodes.id[n]] = n;
+    for (const auto& [ends, middle] : nodes_on_edges(model.solids)) {
+      const auto of_world = [&](Index n) {
+        return world_node_.at(model.nodes[static_cast<std::size_t>(n)].id);
+      };
+      on_edge_[std::minmax({of_world(ends[0]), of_world(ends[1])})] = of_world(middle);
+    }
   }
   void add(const LoadSegment& card) {
     std::array<Id, 4> id{card.n1, card.n2, card.n3, card.n4 == 0 ? card.n3 : card.n4};
@@ -275,6 +313,11 @@ class PressureReader {
                   "give it three different nodes");
       return false;
     }
+    for (std::size_t c = 0; face.corners() == 3 && c < 3; ++c)
+      if (const auto found = on_edge_.find(std::minmax({face.node[c], face.node[(c + 1) % 3]}));
+          found != on_edge_.end())
+        face.on_edge[c] = found->second;
+    if (std::count(face.on_edge.begin(), face.on_edge.end(), Index(-1)) > 0) face.on_edge.fill(-1);
     faces.push_back(face);
     return true;
   }
@@ -284,6 +327,7 @@ class PressureReader {
   const World& world_;
   Diagnostics& diagnostics_;
   std::map<Id, Index> world_node_, shell_of_id_;
+  std::map<std::pair<Index, Index>, Index> on_edge_;  ///< nodes of the world between two others
 };
 
 /// Of lists that are not all empty.

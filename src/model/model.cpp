@@ -16,10 +16,10 @@ Real Curve::operator()(Real a) const {
 
 namespace {
 
-/// The different nodes of a solid's first eight, in the order of their first places; how many there are.
-int different_nodes(const ModelSolid& solid, std::array<Index, 8>& out) {
+/// The different ones of a solid's corners, in the order in which they come first; how many there are.
+int collect_corners(const ModelSolid& solid, std::array<Index, 8>& out) {
   auto end = out.begin();
-  for (auto n = solid.node.begin(); n != solid.node.begin() + 8; ++n)
+  for (auto n = solid.node.begin(); n != solid.node.begin() + (solid.has_nodes_on_edges() ? 4 : 8); ++n)
     if (*n >= 0 && std::find(out.begin(), end, *n) == end) *end++ = *n;
   return static_cast<int>(end - out.begin());
 }
@@ -29,14 +29,34 @@ int different_nodes(const ModelSolid& solid, std::array<Index, 8>& out) {
 std::array<Index, 8> ModelSolid::corners() const {
   std::array<Index, 8> out{}, different{};
   std::copy_n(node.begin(), out.size(), out.begin());
-  if (different_nodes(*this, different) != 4) return out;
+  if (collect_corners(*this, different) != 4) return out;
   const auto [a, b, c, d] = std::array{different[0], different[1], different[2], different[3]};
   return {a, b, c, c, d, d, d, d};
 }
 
+std::array<Index, 10> ModelSolid::all_corners() const {
+  if (has_nodes_on_edges()) return node;
+  std::array<Index, 10> out{};
+  out.fill(-1);
+  const std::array<Index, 8> own = corners();
+  std::copy(own.begin(), own.end(), out.begin());
+  return out;
+}
+
+std::map<std::array<Index, 2>, Index> nodes_on_edges(const std::vector<ModelSolid>& solids) {
+  constexpr std::size_t ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  std::map<std::array<Index, 2>, Index> out;
+  for (const ModelSolid& solid : solids)
+    for (std::size_t k = 0; solid.has_nodes_on_edges() && k < std::size(ends); ++k) {
+      const auto [a, b] = std::minmax(solid.node[ends[k][0]], solid.node[ends[k][1]]);
+      out[{a, b}] = solid.node[4 + k];
+    }
+  return out;
+}
+
 int ModelSolid::different_corners() const {
   std::array<Index, 8> different{};
-  return different_nodes(*this, different);
+  return collect_corners(*this, different);
 }
 
 Real ModelLayup::thickness() const {

@@ -68,7 +68,7 @@ struct ModelShell {
 
 /// A hexahedron: nodes 1 to 4 run around the lower face, counter-clockwise seen from the upper one, 5 to 8
 /// stand above them; or what becomes of it where nodes stand several times: pentahedra, pyramids, tetrahedra.
-/// Those of ten nodes are refused; sets know them all the same.
+/// Or a tetrahedron with nodes 5 to 10 on its edges: of 1 and 2, 2 and 3, 3 and 1, 1 and 4, 2 and 4, 3 and 4.
 struct ModelSolid {
   Id id = 0;
   Index part = 0;
@@ -77,9 +77,15 @@ struct ModelSolid {
   /// As corners of a hexahedron. Of a tetrahedron with nodes a, b, c, d, however often it repeats which of
   /// them: a b c c d d d d, since other ways to repeat them leave a warped face.
   std::array<Index, 8> corners() const;
+  bool has_nodes_on_edges() const { return node[9] >= 0; }
+  /// Ten with nodes on edges; else corners(), and -1 behind them.
+  std::array<Index, 10> all_corners() const;
   /// Different nodes among these: 8 of a hexahedron, 6 of a pentahedron, 5 of a pyramid, 4 of a tetrahedron.
   int different_corners() const;
+  int different_nodes() const { return has_nodes_on_edges() ? 10 : different_corners(); }
 };
+/// Nodes on the edges of tetrahedra of ten nodes, by the ends of the edge, the lower index first.
+std::map<std::array<Index, 2>, Index> nodes_on_edges(const std::vector<ModelSolid>& solids);
 
 struct ModelBeam {
   Id id = 0;

@@ -140,21 +140,32 @@ struct ElementGroup {
   Field<Index>* segment = nullptr;  ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
+  /// Of solids: the corners of a hexahedron, or of what becomes of one (pentahedra of 6 corners, tetrahedra
+  /// of 4 or 10), with the same ends of edges.
+  std::array<int, 8> hexahedron() const {
+    if (corners() == 8) return {0, 1, 2, 3, 4, 5, 6, 7};
+    if (corners() == 6) return {0, 1, 2, 3, 4, 4, 5, 5};
+    return {0, 1, 2, 2, 3, 3, 3, 3};
+  }
   /// Whether the node of a corner stands at no corner before it.
   bool is_first(Index e, int corner) const {
     for (int b = 0; b < corner; ++b)
       if (node.data(b)[e] == node.data(corner)[e]) return false;
     return true;
   }
-  /// Of the mass of an element, what a corner gets: the same for all nodes, however many corners they are.
-  /// [-]
+  /// Of the mass of an element, what a corner gets: `shares`, or the same for all nodes, however many corners
+  /// they are. [-]
   Real share(Index e, int corner) const {
+    if (!shares.empty()) return shares[static_cast<std::size_t>(corner)];
     if (!repeats_nodes) return Real(1) / corners();
     int different = 0, same = 0;
     for (int c = 0; c < corners(); ++c)
       different += is_first(e, c), same += node.data(c)[e] == node.data(corner)[e];
     return Real(1) / (different * same);
   }
+
+  /// Of the mass of an element, by corner; empty: equal. [-]
+  std::vector<Real> shares{};
 };
 
 }  // namespace courant

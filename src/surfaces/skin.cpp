@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "state/shared_fields.hpp"
@@ -10,14 +11,24 @@ namespace courant {
 
 namespace {
 
-/// Corners of the faces of a hexahedron, counter-clockwise seen from outside.
-constexpr int faces[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                             {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
 using Face = std::array<Index, 4>;
+using FaceCorners = std::array<int, 4>;
+
+/// Corners of the faces, counter-clockwise seen from outside.
+constexpr FaceCorners of_hexahedron[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                         {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+constexpr FaceCorners of_tetrahedron10[] = {{0, 6, 4, 4}, {6, 2, 5, 5}, {4, 5, 1, 1}, {6, 5, 4, 4},
+                                            {0, 4, 7, 7}, {4, 1, 8, 8}, {7, 8, 3, 3}, {4, 8, 7, 7},
+                                            {1, 5, 8, 8}, {5, 2, 9, 9}, {8, 9, 3, 3}, {5, 9, 8, 8},
+                                            {2, 6, 9, 9}, {6, 0, 7, 7}, {9, 7, 3, 3}, {6, 7, 9, 9}};
+
+std::span<const FaceCorners> faces_of(const SkinCell& cell) {
+  if (cell.corners == 10) return of_tetrahedron10;
+  return of_hexahedron;
+}
 
 /// The nodes of a face, each once; of a triangle the third again. Less than three are no face: false.
-bool nodes_of_face(const SkinCell& cell, const int (&corners)[4], Face& out) {
+bool nodes_of_face(const SkinCell& cell, const FaceCorners& corners, Face& out) {
   std::size_t count = 0;
   for (const int c : corners) {
     const Index n = cell.node[static_cast<std::size_t>(c)];
@@ -28,6 +39,17 @@ bool nodes_of_face(const SkinCell& cell, const int (&corners)[4], Face& out) {
 }
 
 }  // namespace
+
+std::vector<std::array<Index, 8>> SkinCell::pieces() const {
+  const auto at = [this](int c) { return node[static_cast<std::size_t>(c)]; };
+  if (corners == 8) return {{at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)}};
+  constexpr int tetrahedra[8][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3},
+                                    {4, 9, 8, 5}, {4, 9, 7, 8}, {4, 9, 6, 7}, {4, 9, 5, 6}};
+  std::vector<std::array<Index, 8>> out;
+  for (const auto& [a, b, c, d] : tetrahedra)
+    out.push_back({at(a), at(b), at(c), at(c), at(d), at(d), at(d), at(d)});
+  return out;
+}
 
 std::array<Index, 4> sorted_corners(std::array<Index, 4> corner) {
   std::sort(corner.begin(), corner.end());
@@ -41,11 +63,11 @@ std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
   std::map<Face, int> count;
   Face face;
   for (const SkinCell& cell : cells)
-    for (const auto& corners : faces)
+    for (const FaceCorners& corners : faces_of(cell))
       if (nodes_of_face(cell, corners, face)) ++count[sorted_corners(face)];
   std::vector<std::pair<const SkinCell*, Face>> outer;
   for (const SkinCell& cell : cells)
-    for (const auto& corners : faces)
+    for (const FaceCorners& corners : faces_of(cell))
       if (nodes_of_face(cell, corners, face) && (stiffness.inner || count[sorted_corners(face)] == 1))
         outer.emplace_back(&cell, face);
   Segments& s = world.segments;
@@ -56,7 +78,7 @@ std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
     face = of_cell;
     s.node0[at] = face[0], s.node1[at] = face[1], s.node2[at] = face[2], s.node3[at] = face[3];
     s.K[at] = stiffness.bulk_modulus;
-    s.volume[at] = cell->volume;
+    s.volume[at] = cell->volume / static_cast<Real>(cell->pieces().size());
     s.part[at] = stiffness.part;
     s.id[at] = cell->id;
     if (stiffness.inner && count[sorted_corners(face)] > 1)
@@ -74,10 +96,13 @@ std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness) {
   if (!out.empty()) return out;
   std::vector<SkinCell> cells;
   for (const auto& group : world.groups) {
-    if (group->part != stiffness.part || group->corners() != 8) continue;
+    if (group->part != stiffness.part || group->segment || group->corners() < 4) continue;
+    const bool of_ten = group->corners() == 10;
+    const std::array<int, 8> corners = group->hexahedron();
     for (Index e = 0; e < group->size(); ++e) {
-      SkinCell& cell = cells.emplace_back(SkinCell{group->id[e], {}, group->V0[e]});
-      for (int c = 0; c < 8; ++c) cell.node[static_cast<std::size_t>(c)] = group->node.data(c)[e];
+      SkinCell& cell = cells.emplace_back(SkinCell{group->id[e], of_ten ? 10 : 8, {}, group->V0[e]});
+      for (std::size_t c = 0; c < static_cast<std::size_t>(cell.corners); ++c)
+        cell.node[c] = group->node.data(of_ten ? static_cast<int>(c) : corners[c])[e];
     }
   }
   return add_skin(world, stiffness, cells);

@@ -14,11 +14,15 @@ struct SkinStiffness {
   bool inner = false;     ///< faces between elements, too, of each of the two, marked as hidden
 };
 
-/// A hexahedron, or what becomes of it where nodes stand several times.
+/// A hexahedron, or what becomes of it where nodes stand several times; or a tetrahedron with nodes on its
+/// edges, each face of which is four triangles.
 struct SkinCell {
   Id id = 0;
-  std::array<Index, 8> node{};  ///< of the world, in LS-DYNA's order
-  Real volume = 0;              ///< [L3]
+  int corners = 8;               ///< or 10
+  std::array<Index, 10> node{};  ///< of the world, in LS-DYNA's order
+  Real volume = 0;               ///< [L3]
+  /// Hexahedra (collapsed ones) that fill it: itself, or the eight tetrahedra between nodes of ten.
+  std::vector<std::array<Index, 8>> pieces() const;
 };
 
 /// The corners of a face, sorted, which tell it whatever their order; of a triangle, whichever corner it

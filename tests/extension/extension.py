@@ -141,6 +141,14 @@ for t, name in states[2::3]:
 copies(deck, "strength_many.k", 70)
 same_bits("strength_many", "strength_many.k", ["strength_law"], 100)
 
+# --- a formulation of solids: what the library computes of the same tetrahedra
+deck = f"{decks}/solid_formulation.k"
+fine("run", deck, "-o", "four_corners", "--quiet", *loads("solid_formulation"))
+fine("run", deck, "-o", "eight_corners", "--quiet", "--param", "ELFORM=10")
+for label in ("kinetic energy", "internal energy", "time step"):
+    own, other = glstat("four_corners", label), glstat("eight_corners", label)
+    check(len(own) > 15 and numpy.allclose(own, other, rtol=1e-6), f"tetrahedron of four corners: {label} of glstat as that of ELFORM 10")
+
 # --- an equation of state: a standing wave
 fine("generate", f"{decks}/equation_of_state.yaml", "-o", "gas.k")
 fine("run", "gas.k", "-o", "gas", "--quiet", *loads("equation_of_state"))

@@ -35,7 +35,7 @@ class PartMasses {
       for (Index e = 0; e < group.size(); ++e) {
         const Real weight = by_mass ? group.mass[e] : size_of(group, e);
         all += weight, mass += group.mass[e];
-        for (int c = 0; c < group.corners(); ++c) share[group.node.data(c)[e]] += weight / group.corners();
+        for (int c = 0; c < group.corners(); ++c) share[group.node.data(c)[e]] += weight * group.share(e, c);
       }
     }
     if (!(all > 0))

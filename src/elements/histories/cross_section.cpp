@@ -14,15 +14,19 @@ namespace {
 using Edge = std::array<int, 2>;
 constexpr Edge of_hexahedron[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                                   {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+constexpr Edge of_tetrahedron10[] = {{0, 4}, {4, 1}, {1, 5}, {5, 2}, {2, 6}, {6, 0},
+                                     {0, 7}, {7, 3}, {1, 8}, {8, 3}, {2, 9}, {9, 3}};
 constexpr Edge of_quadrilateral[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
 constexpr Edge of_triangle[] = {{0, 1}, {1, 2}, {2, 0}};
 constexpr Edge of_line[] = {{0, 1}};
 
-std::span<const Edge> edges_of(int corners) {
-  if (corners == 8) return of_hexahedron;
-  if (corners == 4) return of_quadrilateral;
-  if (corners == 3) return of_triangle;
-  return of_line;
+/// By corners of the group, of solids without nodes on edges by those of ElementGroup::hexahedron.
+std::span<const Edge> edges_of(const ElementGroup& group) {
+  if (group.corners() == 10) return of_tetrahedron10;
+  if (group.corners() == 2) return of_line;
+  if (!group.segment) return of_hexahedron;
+  if (group.corners() == 4) return of_quadrilateral;
+  return of_triangle;
 }
 
 bool is_deleted(const ElementGroup& group, Index e) {
@@ -73,7 +77,13 @@ void CrossSection::add(const ReportedElement& element, const World& world, const
   const int corners = group.corners();
   const auto node = [&](int c) { return group.node.data(c)[element.e]; };
   for (int c = 0; c < corners; ++c) cut.counted |= counts(node(c)) ? 1U << c : 0U;
-  for (const auto& [c, d] : edges_of(corners)) {
+  const std::span<const Edge> edges = edges_of(group);
+  const std::array<int, 8> hexahedron = group.hexahedron();
+  const auto corner = [&](int end) {
+    return edges.data() == of_hexahedron ? hexahedron[static_cast<std::size_t>(end)] : end;
+  };
+  for (const Edge& edge : edges) {
+    const int c = corner(edge[0]), d = corner(edge[1]);
     if (((cut.counted >> c) & 1U) == ((cut.counted >> d) & 1U)) continue;
     const bool first = ((cut.counted >> c) & 1U) != 0;
     CutPoint point{first ? node(c) : node(d), first ? node(d) : node(c), 0};

@@ -1,8 +1,15 @@
-// Compiled once for each instruction set; see docs/architecture.md and hexahedron_loops.cpp.
-#include "elements/solid/full_hexahedron_loops.hpp"
-
+// The hexahedron with 2 x 2 x 2 points (ELFORM 2), compiled once for each instruction set; see
+// docs/architecture.md and hexahedron_loops.cpp.
+//
+// The trace of D at each point is the mean over the element, dV/dt/V, and the force of pressure is that of
+// the mean pressure, p dV/dx_I: elements that keep their volume do not lock (selective reduced integration:
+// Hughes 1980, Int. J. Numer. Meth. Eng. 15). The deviator is integrated in full, so that no mode has zero
+// energy.
 #include "elements/solid/hexahedron_modes.hpp"
-#include "laws/objective.hpp"
+#ifdef COURANT_ONCE
+#include "base/instruction_set.hpp"
+#include "elements/solid/formulation.hpp"
+#endif
 
 namespace courant::COURANT_SIMD {
 
@@ -30,8 +37,8 @@ COURANT_INLINE Native cofactors(const Triple r[3], Triple out[3]) {
   return dot(r[0], out[0]);
 }
 
-COURANT_INLINE void gather_of(Index first, Index n, Index k, const HexahedronMesh& mesh,
-                              const HexahedronState& state, FullHexahedronScratch& scratch) {
+COURANT_INLINE void gather_of(Index first, Index n, Index k, const SolidMesh& mesh, const SolidState& state,
+                              PointScratch& scratch) {
   Native x[3][7], v[3][7];
   gather_modes(mesh, first, n, k, scratch, x, v);
   Triple a[7];
@@ -40,17 +47,17 @@ COURANT_INLINE void gather_of(Index first, Index n, Index k, const HexahedronMes
 }
 
 /// Half a step's change of volume at the rates sum b_I.v_I with the places of `later` steps from its end.
-COURANT_INLINE Native opened_at(Index k, Real dt, Real later, const FullHexahedronScratch& scratch) {
+COURANT_INLINE Native opened_at(Index k, Real dt, Real later, const PointScratch& scratch) {
   Triple a[7];
   for (int m = 0; m < 7; ++m)
-    a[m] = triple(scratch.place + 3 * m, k) + later * dt * triple(scratch.speed + 3 * m, k);
+    a[m] = triple(scratch.position + 3 * m, k) + later * dt * triple(scratch.speed + 3 * m, k);
   const Geometry there = geometry(a);
   Native opening = all(0);
   for (int m = 0; m < 6; ++m) opening += dot(triple(scratch.speed + 3 * m, k), there.g[m]);
   return 0.0078125 * dt * opening;
 }
 
-COURANT_INLINE void begin_of(Index k, Real dt, bool heats, FullHexahedronScratch& scratch) {
+COURANT_INLINE void begin_of(Index k, Real dt, bool heats, PointScratch& scratch) {
   if (heats)
     store(scratch.opened[0] + k, opened_at(k, dt, -1, scratch)),
         store(scratch.opened[1] + k, opened_at(k, dt, 0, scratch));
@@ -58,68 +65,37 @@ COURANT_INLINE void begin_of(Index k, Real dt, bool heats, FullHexahedronScratch
   Triple a[7], w[7];
   for (int m = 0; m < 7; ++m) {
     w[m] = triple(scratch.speed + 3 * m, k);
-    a[m] = triple(scratch.place + 3 * m, k) + back * w[m];
+    a[m] = triple(scratch.position + 3 * m, k) + back * w[m];
   }
   const Geometry middle = geometry(a);
   Native opening = all(0);
   for (int m = 0; m < 6; ++m) opening += dot(w[m], middle.g[m]);
   store(scratch.mean_trace + k, opening / middle.V64);
   store(scratch.middle_volume + k, 0.015625 * middle.V64);
-  for (auto& force : scratch.force) store(force + k, all(0));
+  for (int m = 0; m < 21; ++m) store(scratch.force[m] + k, all(0));
   store(scratch.pressure + k, all(0)), store(scratch.fastest + k, all(0)), store(scratch.work + k, all(0));
 }
 
-COURANT_INLINE Native power_of(const Native s[6], const FullHexahedronScratch& scratch, Index k) {
-  const auto& D = scratch.rate;
-  return s[0] * load(D[0] + k) + s[1] * load(D[1] + k) + s[2] * load(D[2] + k) +
-         2.0 * (s[3] * load(D[3] + k) + s[4] * load(D[4] + k) + s[5] * load(D[5] + k));
-}
-COURANT_INLINE void add_work(const Native s[6], Real dt, Index k, FullHexahedronScratch& scratch) {
-  const Native half = 0.5 * dt * load(scratch.weight + k);
-  store(scratch.work + k, load(scratch.work + k) + half * power_of(s, scratch, k));
-}
-
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const GaussPoint& at,
-                              const HexahedronState& state, FullHexahedronScratch& scratch) {
+                              const SolidState& state, PointScratch& scratch) {
   const Real back = -0.5 * dt;
-  Triple a[7], w[7], r[3], u[3], C[3], L[3];
+  Triple a[7], w[7], r[3], u[3], C[3];
   for (int m = 0; m < 7; ++m) {
     w[m] = triple(scratch.speed + 3 * m, k);
-    a[m] = triple(scratch.place + 3 * m, k) + back * w[m];
+    a[m] = triple(scratch.position + 3 * m, k) + back * w[m];
   }
   slopes(a, at, r), slopes(w, at, u);
-  const Native det = cofactors(r, C), scale = 1.0 / det, half = 0.5 * scale, turn = 0.5 * dt * half;
+  const Native det = cofactors(r, C);
   store(scratch.weight + k, 0.001953125 * det);
-  L[0] = u[0].x * C[0] + (u[1].x * C[1] + u[2].x * C[2]);
-  L[1] = u[0].y * C[0] + (u[1].y * C[1] + u[2].y * C[2]);
-  L[2] = u[0].z * C[0] + (u[1].z * C[1] + u[2].z * C[2]);
-  Native D[6] = {scale * L[0].x,           scale * L[1].y,           scale * L[2].z,
-                 half * (L[0].y + L[1].x), half * (L[1].z + L[2].y), half * (L[2].x + L[0].z)};
-  const Native lacks = (load(scratch.mean_trace + k) - D[0] - D[1] - D[2]) * (1.0 / 3);
-  for (int j = 0; j < 3; ++j) D[j] += lacks;
-  const Triple h{turn * (L[2].y - L[1].z), turn * (L[0].z - L[2].x), turn * (L[1].x - L[0].y)};
-  store(scratch.half_turn[0] + k, h.x), store(scratch.half_turn[1] + k, h.y);
-  store(scratch.half_turn[2] + k, h.z);
-  turn_rate(h.x, h.y, h.z, D[0], D[1], D[2], D[3], D[4], D[5]);
-  Native s[6];
-  for (int j = 0; j < 6; ++j) store(scratch.rate[j] + k, D[j]), s[j] = load(state.stress[j] + first, n);
-  turn_tensor(h.x, h.y, h.z, s[0], s[1], s[2], s[3], s[4], s[5]);
-  for (int j = 0; j < 6; ++j) store(state.stress[j] + first, s[j], n);
-  for (int t = 0; t < state.tensors; ++t) {
-    Native kept[6];
-    for (int j = 0; j < 6; ++j) kept[j] = load(state.tensor[t][j] + first, n);
-    turn_tensor(h.x, h.y, h.z, kept[0], kept[1], kept[2], kept[3], kept[4], kept[5]);
-    for (int j = 0; j < 6; ++j) store(state.tensor[t][j] + first, kept[j], n);
-  }
-  add_work(s, dt, k, scratch);
+  strain_point(first, n, k, dt, u, C, det, 1, state, scratch);
 }
 
 /// Forces -sum_I s grad N_I of a point on the modes of the corners, N_I = sum_k H_Ik phi_k/8 with phi = xi,
 /// eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta.
 COURANT_INLINE void add_of(Index first, Index n, Index k, Real dt, const GaussPoint& g,
-                           const HexahedronState& state, FullHexahedronScratch& scratch) {
+                           const SolidState& state, PointScratch& scratch) {
   Triple a[7], r[3], C[3];
-  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.place + 3 * m, k);
+  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.position + 3 * m, k);
   slopes(a, g, r);
   const Native weight = 0.001953125 * cofactors(r, C);
   Native s[6];
@@ -147,13 +123,13 @@ COURANT_INLINE void add_of(Index first, Index n, Index k, Real dt, const GaussPo
   }
 }
 
-COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
-                              const HexahedronState& state, FullHexahedronScratch& scratch) {
+COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const SolidControl& control,
+                              const SolidState& state, PointScratch& scratch) {
   Triple a[7];
-  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.place + 3 * m, k);
+  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.position + 3 * m, k);
   const Geometry now = geometry(a);
   store(scratch.sound_speed + k, load(scratch.fastest + k));
-  const Compressed of = compressed(first, n, k, dt, control, state, a, now.V64, scratch);
+  const Compressed of = compressed(first, n, k, dt, control, state, now.V64, thickness(a, now.V64), scratch);
   // 64 p dV/da of the modes, with the volume that is in the mean of p
   const Native p = load(scratch.pressure + k) * of.inverse_V64 + 0.015625 * of.q;
   for (int i = 0; i < 3; ++i) {
@@ -166,18 +142,18 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
 }
 
-void gather(const FullHexahedronLoops::Block& block, const HexahedronMesh& mesh, const HexahedronState& state,
-            FullHexahedronScratch& scratch) {
+void gather(const ElementBlock& block, const SolidMesh& mesh, const SolidState& state,
+            PointScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     gather_of(block.begin + k, native_lanes, k, mesh, state, scratch);
   if (whole < block.count) gather_of(block.begin + whole, block.count - whole, whole, mesh, state, scratch);
 }
-void begin(const FullHexahedronLoops::Block& block, bool heats, FullHexahedronScratch& scratch) {
+void begin(const ElementBlock& block, bool heats, PointScratch& scratch) {
   for (Index k = 0; k < block.count; k += native_lanes) begin_of(k, block.dt, heats, scratch);
 }
-void strain(const FullHexahedronLoops::Block& block, int point, const HexahedronState& state,
-            FullHexahedronScratch& scratch) {
+void strain(const ElementBlock& block, int point, const SolidControl&, const SolidState& state,
+            PointScratch& scratch) {
   const GaussPoint at(point);
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
@@ -185,8 +161,8 @@ void strain(const FullHexahedronLoops::Block& block, int point, const Hexahedron
   if (whole < block.count)
     strain_of(block.begin + whole, block.count - whole, whole, block.dt, at, state, scratch);
 }
-void add_point(const FullHexahedronLoops::Block& block, int point, const HexahedronState& state,
-               FullHexahedronScratch& scratch) {
+void add_point(const ElementBlock& block, int point, const SolidControl&, const SolidState& state,
+               PointScratch& scratch) {
   const GaussPoint at(point);
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
@@ -194,8 +170,8 @@ void add_point(const FullHexahedronLoops::Block& block, int point, const Hexahed
   if (whole < block.count)
     add_of(block.begin + whole, block.count - whole, whole, block.dt, at, state, scratch);
 }
-HexahedronLoops::StableStep forces(const FullHexahedronLoops::Block& block, const HexahedronControl& control,
-                                   const HexahedronState& state, FullHexahedronScratch& scratch) {
+StableStep forces(const ElementBlock& block, const SolidControl& control, const SolidState& state,
+                  PointScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     forces_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);
@@ -206,8 +182,38 @@ HexahedronLoops::StableStep forces(const FullHexahedronLoops::Block& block, cons
 
 }  // namespace
 
-FullHexahedronLoops full_hexahedron_loops() {
+PointLoops full_hexahedron_loops() {
   return {&gather, &begin, &strain, &add_point, &forces};
 }
 
 }  // namespace courant::COURANT_SIMD
+
+#ifdef COURANT_ONCE
+namespace courant {
+
+PointLoops full_hexahedron_loops();
+COURANT_DECLARE_VARIANTS(full_hexahedron_loops)
+
+PointLoops full_hexahedron_loops() {
+  return COURANT_VARIANT(full_hexahedron_loops)();
+}
+
+namespace {
+
+constexpr const char* without_assumed_strains =
+    "{1} is not there: the solids of part {0} are those of ELFORM 2, without the strains that make flat "
+    "elements "
+    "bend softer";
+constexpr const char* near_cubes =
+    "2 says the same without this warning; keep elements of bending parts near cubes";
+const RegisterSolidFormulation eight_points{
+    {.elforms = {{.number = 2, .offer = "2 (eight points; -1 and -2 become it)"},
+                 {.number = -1, .warning = without_assumed_strains, .hint = near_cubes},
+                 {.number = -2, .warning = without_assumed_strains, .hint = near_cubes}},
+     .points = 8,
+     .several = &full_hexahedron_loops}};
+
+}  // namespace
+
+}  // namespace courant
+#endif

@@ -8,13 +8,15 @@
 
 namespace courant {
 
-FullPoints::FullPoints(const ElementGroup& group, const StrengthLaw& law)
+FullPoints::FullPoints(const SolidFormulation& formulation, const ElementGroup& group, const StrengthLaw& law)
     : group_(group),
+      points_(formulation.points),
+      loops_(formulation.several()),
       stress_(group.fields.add<Real>(
-          {.name = "stress_of_points", .dimension = "M/LT2", .components = 6 * points})) {
+          {.name = "stress_of_points", .dimension = "M/LT2", .components = 6 * points_})) {
   for (const HistoryVariable& h : law.history()) {
     history_.push_back(&group.fields.add<Real>(
-        {.name = h.name + "_of_points", .dimension = h.dimension, .components = points * h.components}));
+        {.name = h.name + "_of_points", .dimension = h.dimension, .components = points_ * h.components}));
     if (h.is_tensor()) tensors_.push_back(history_.back());
   }
 }
@@ -25,8 +27,8 @@ void FullPoints::declare(Accesses& a) const {
   for (const Field<Real>* h : history_) a.updates(*h);
 }
 
-PointBlock FullPoints::at_point(int p, const HexahedronLoops::Block& block, FullHexahedronScratch& scratch,
-                                HexahedronState& state, std::array<Real*, 16>& history) const {
+PointBlock FullPoints::at_point(int p, const ElementBlock& block, PointScratch& scratch, SolidState& state,
+                                std::array<Real*, 16>& history) const {
   PointBlock at;
   at.count = block.count, at.dt = block.dt;
   for (int k = 0; k < 6; ++k) {
@@ -37,7 +39,7 @@ PointBlock FullPoints::at_point(int p, const HexahedronLoops::Block& block, Full
   }
   std::size_t numbers = 0;
   for (Field<Real>* h : history_) {
-    const int n = h->info().components / points;
+    const int n = h->info().components / points_;
     for (int k = 0; k < n; ++k) history[numbers++] = h->data(n * p + k) + block.begin;
   }
   at.history = {history.data(), numbers};
@@ -45,18 +47,25 @@ PointBlock FullPoints::at_point(int p, const HexahedronLoops::Block& block, Full
   return at;
 }
 
-HexahedronLoops::StableStep FullPoints::advance(const BlockOfSolids& of, const HexahedronLoops::Block& block,
-                                                FullHexahedronScratch& scratch,
-                                                const Between& between) const {
+void FullPoints::measure(const BlockOfSolids& of, const ElementBlock& block, Real sound_speed,
+                         PointScratch& scratch) const {
+  loops_.gather(block, of.mesh, of.state, scratch);
+  loops_.begin(block, false, scratch);
+  std::fill_n(scratch.fastest, block.count, sound_speed);
+  loops_.forces(block, of.control, of.state, scratch);
+}
+
+StableStep FullPoints::advance(const BlockOfSolids& of, const ElementBlock& block, PointScratch& scratch,
+                               const Between& between) const {
   loops_.gather(block, of.mesh, of.state, scratch);
   between.gathered();
   loops_.begin(block, false, scratch);
-  HexahedronState state = of.state;
+  SolidState state = of.state;
   state.tensors = static_cast<int>(tensors_.size());
   std::array<Real*, 16> history{};
-  for (int p = 0; p < points; ++p) {
+  for (int p = 0; p < points_; ++p) {
     PointBlock at = at_point(p, block, scratch, state, history);
-    loops_.strain(block, p, state, scratch);
+    loops_.strain(block, p, of.control, state, scratch);
     of.law.update(at);
     between.answered(p, at);
     if (damping_) {
@@ -67,7 +76,7 @@ HexahedronLoops::StableStep FullPoints::advance(const BlockOfSolids& of, const H
                      scratch.work});
       for (int k = 0; k < 6; ++k) state.stress[k] = damping_->damped(0, k);
     }
-    loops_.add(block, p, state, scratch);
+    loops_.add(block, p, of.control, state, scratch);
   }
   return loops_.forces(block, of.control, of.state, scratch);
 }
@@ -81,12 +90,12 @@ void FullPoints::reset() {
 void FullPoints::start_pressure(Real p) {
   pressure_ = &group_.fields.add<Real>({.name = "pressure_of_points", .dimension = "M/LT2"});
   pressure_->fill(p);
-  for (int point = 0; point < points; ++point)
+  for (int point = 0; point < points_; ++point)
     for (int k = 0; k < 3; ++k) std::fill_n(stress_.data(6 * point + k), group_.size(), -p);
 }
 
 void FullPoints::set_tensor(std::size_t number, Index e, const std::array<Real, 6>& tensor) {
-  for (int p = 0; p < points; ++p)
+  for (int p = 0; p < points_; ++p)
     for (int k = 0; k < 6; ++k) history_[number]->data(6 * p + k)[e] = tensor[static_cast<std::size_t>(k)];
 }
 
@@ -96,8 +105,8 @@ void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& h
     for (int k = 0; k < n; ++k)
       for (Index e = 0; e < group_.size(); ++e) {
         Real sum = 0;
-        for (int p = 0; p < points; ++p) sum += from.data(n * p + k)[e];
-        to.data(k)[e] = sum / points;
+        for (int p = 0; p < points_; ++p) sum += from.data(n * p + k)[e];
+        to.data(k)[e] = sum / points_;
       }
   };
   mean(stress_, stress);
@@ -105,12 +114,12 @@ void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& h
 }
 
 std::vector<PointReport> FullPoints::report(Index e, bool all_points) const {
-  std::vector<PointReport> out(points);
+  std::vector<PointReport> out(points_);
   for (std::size_t p = 0; p < out.size(); ++p) {
     const int at = static_cast<int>(p);
     for (int k = 0; k < 6; ++k) out[p].stress[static_cast<std::size_t>(k)] = stress_.data(6 * at + k)[e];
     for (const Field<Real>* h : history_) {
-      const int n = h->info().components / points;
+      const int n = h->info().components / points_;
       for (int k = 0; k < n; ++k) out[p].history.push_back(h->data(n * at + k)[e]);
     }
   }
@@ -122,7 +131,7 @@ std::vector<Field<Real>*> FullPoints::of_deleted() const {
   std::vector<Field<Real>*> out{&stress_};
   if (pressure_) out.push_back(pressure_);
   for (Field<Real>* h : history_)
-    if (h->info().components == 6 * points) out.push_back(h);
+    if (h->info().components == 6 * points_) out.push_back(h);
   return out;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-// Stress and history at the eight points of fully integrated solids (ELFORM 2) of a part.
+// Stress and history at the points of solids of a part that have several.
 #include <array>
 #include <functional>
 #include <vector>
 
 #include "elements/element_report.hpp"
-#include "elements/solid/full_hexahedron_loops.hpp"
+#include "elements/solid/formulation.hpp"
 #include "elements/solid/solid_pressure.hpp"
 #include "laws/strength/strength.hpp"
 #include "state/entities.hpp"
@@ -18,9 +18,9 @@ class FullPoints {
  public:
   /// What a block of elements moves by, and answers with. Stress and tensors of `state` are not looked at.
   struct BlockOfSolids {
-    const HexahedronMesh& mesh;
-    const HexahedronControl& control;
-    const HexahedronState& state;
+    const SolidMesh& mesh;
+    const SolidControl& control;
+    const SolidState& state;
     const StrengthLaw& law;
   };
   /// Of an equation of state: one pressure for all points of an element, of its mean compression and its
@@ -38,18 +38,21 @@ class FullPoints {
   };
 
   /// Adds fields to the group.
-  FullPoints(const ElementGroup& group, const StrengthLaw& law);
+  FullPoints(const SolidFormulation& formulation, const ElementGroup& group, const StrengthLaw& law);
+  int points() const { return points_; }
   /// A tensor of six numbers for each point, which is turned with the stress.
   void turn_too(Field<Real>& tensor) { tensors_.push_back(&tensor); }
   /// Null: by none.
   void damp_by(const StiffnessDamping* damping) { damping_ = damping; }
   void declare(Accesses& a) const;
-  HexahedronLoops::StableStep advance(const BlockOfSolids& of, const HexahedronLoops::Block& block,
-                                      FullHexahedronScratch& scratch, const Between& between) const;
+  StableStep advance(const BlockOfSolids& of, const ElementBlock& block, PointScratch& scratch,
+                     const Between& between) const;
   /// The same with an equation of state.
-  HexahedronLoops::StableStep advance(const BlockOfSolids& of, Fluid& fluid,
-                                      const HexahedronLoops::Block& block, FullHexahedronScratch& scratch,
-                                      const Between& between) const;
+  StableStep advance(const BlockOfSolids& of, Fluid& fluid, const ElementBlock& block, PointScratch& scratch,
+                     const Between& between) const;
+  /// Volumes, with reference volumes of 1, and steps of elements without stress.
+  void measure(const BlockOfSolids& of, const ElementBlock& block, Real sound_speed,
+               PointScratch& scratch) const;
   /// No stress, no history.
   void reset();
   /// What all points of an element have of a tensor of the law's history, the one with this number.
@@ -64,12 +67,12 @@ class FullPoints {
   std::vector<Field<Real>*> of_deleted() const;
 
  private:
-  static constexpr int points = FullHexahedronLoops::points;
   /// What the law gets at point p, whose stress and tensors `state` then has. `history`: room.
-  PointBlock at_point(int p, const HexahedronLoops::Block& block, FullHexahedronScratch& scratch,
-                      HexahedronState& state, std::array<Real*, 16>& history) const;
+  PointBlock at_point(int p, const ElementBlock& block, PointScratch& scratch, SolidState& state,
+                      std::array<Real*, 16>& history) const;
   const ElementGroup& group_;
-  FullHexahedronLoops loops_ = full_hexahedron_loops();
+  int points_;
+  PointLoops loops_;
   Field<Real>& stress_;                ///< component 6 p + k of point p
   std::vector<Field<Real>*> history_;  ///< of each number of the law, component n p + k
   std::vector<Field<Real>*> tensors_;  ///< those among them, and others

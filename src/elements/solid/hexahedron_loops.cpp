@@ -1,10 +1,20 @@
 // Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
 // files. A register holds as many elements as it has room for; what is behind the last element of a block
 // repeats that one and is not stored.
-#include "elements/solid/hexahedron_loops.hpp"
-
+//
+// The hexahedron with one point (ELFORM 1), and what becomes of it where nodes repeat.
+//
+// Positions and velocities of an element are taken as eight modes: a_k = sum_I H_Ik x_I, with H the signs of
+// 1, xi, eta, zeta, eta zeta, zeta xi, xi eta, xi eta zeta at corner I. The volume of a hexahedron with
+// bilinear faces is a polynomial in them,
+//   64 V = a1.(a2 x a3) + (a5.(a4 x a3) + a6.(a2 x a4) + a1.(a6 x a5))/3,
+// so its derivatives by the corners, b_I = dV/dx_I = sum_k H_Ik dV/da_k, are exact and cost a few cross
+// products, and the modes of hourglass control (Flanagan & Belytschko 1981) are those from a4 on.
 #include "elements/solid/hexahedron_modes.hpp"
-#include "laws/objective.hpp"
+#ifdef COURANT_ONCE
+#include "base/instruction_set.hpp"
+#include "elements/solid/formulation.hpp"
+#endif
 
 namespace courant::COURANT_SIMD {
 
@@ -26,7 +36,7 @@ COURANT_INLINE Triple gradient64(const Native w[7], const Triple g[6]) {
 
 /// What the work of the mean stress is more through `opened` than through tr(D) V dt/2 of the middle.
 COURANT_INLINE Native mean_stress_otherwise(int end, Index k, Real dt, const Native s[3],
-                                            const HexahedronScratch& scratch) {
+                                            const SolidScratch& scratch) {
   const Native middle = 0.5 * dt * load(scratch.middle_volume + k) * trace_of(scratch, k);
   return (1.0 / 3) * (s[0] + s[1] + s[2]) * (load(scratch.opened[end] + k) - middle);
 }
@@ -35,15 +45,14 @@ COURANT_INLINE Native mean_stress_otherwise(int end, Index k, Real dt, const Nat
 /// With the geometry in the middle of the step: that at its end would strain what turns, and a stiffness then
 /// makes energy without bound.
 COURANT_INLINE void orthogonal_rates(const Triple middle[7], const Native v[3][7], const Triple L[3],
-                                     Native inverse_V64, Index k, HexahedronScratch& scratch) {
+                                     Native inverse_V64, Index k, SolidScratch& scratch) {
   for (int m = 3; m < 7; ++m)
     for (int i = 0; i < 3; ++i)
       store(scratch.speed[3 * m + i] + k, v[i][m] - inverse_V64 * dot(L[i], middle[m]));
 }
 
-COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const HexahedronMesh& mesh,
-                              const HexahedronControl& control, const HexahedronState& state,
-                              HexahedronScratch& scratch) {
+COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const SolidMesh& mesh,
+                              const SolidControl& control, const SolidState& state, SolidScratch& scratch) {
   Native x[3][7], v[3][7];
   gather_modes(mesh, first, n, k, scratch, x, v);
   Triple a[7], L[3];
@@ -61,25 +70,11 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Hexa
   const Geometry middle = geometry(a);
   for (int i = 0; i < 3; ++i) L[i] = gradient64(v[i], middle.g);
   if (control.hourglass != 1) orthogonal_rates(a, v, L, 1.0 / middle.V64, k, scratch);
-  const Native scale = 1.0 / middle.V64, half = 0.5 * scale, turn = 0.5 * dt * half;
   const Native V = 0.015625 * middle.V64;
   store(scratch.middle_volume + k, V);
-  Native D[6] = {scale * L[0].x,           scale * L[1].y,           scale * L[2].z,
-                 half * (L[0].y + L[1].x), half * (L[1].z + L[2].y), half * (L[2].x + L[0].z)};
-  const Triple h{turn * (L[2].y - L[1].z), turn * (L[0].z - L[2].x), turn * (L[1].x - L[0].y)};
-  store(scratch.half_turn[0] + k, h.x), store(scratch.half_turn[1] + k, h.y);
-  store(scratch.half_turn[2] + k, h.z);
-  turn_rate(h.x, h.y, h.z, D[0], D[1], D[2], D[3], D[4], D[5]);
-  Native s[6];
-  for (int j = 0; j < 6; ++j) store(scratch.rate[j] + k, D[j]), s[j] = load(state.stress[j] + first, n);
-  turn_tensor(h.x, h.y, h.z, s[0], s[1], s[2], s[3], s[4], s[5]);
-  for (int j = 0; j < 6; ++j) store(state.stress[j] + first, s[j], n);
-  for (int t = 0; t < state.tensors; ++t) {
-    Native kept[6];
-    for (int j = 0; j < 6; ++j) kept[j] = load(state.tensor[t][j] + first, n);
-    turn_tensor(h.x, h.y, h.z, kept[0], kept[1], kept[2], kept[3], kept[4], kept[5]);
-    for (int j = 0; j < 6; ++j) store(state.tensor[t][j] + first, kept[j], n);
-  }
+  Native D[6], s[6];
+  turn_state(
+      first, n, k, dt, L, 1.0 / middle.V64, [](Native*) {}, state, scratch, D, s);
   const Native power =
       s[0] * D[0] + s[1] * D[1] + s[2] * D[2] + 2.0 * (s[3] * D[3] + s[4] * D[4] + s[5] * D[5]);
   Native work = 0.5 * dt * V * power;
@@ -149,7 +144,7 @@ COURANT_INLINE AssumedStrain axes_of(const Triple a[3]) {
   return out;
 }
 COURANT_INLINE void strain_modes(const Native q[3][4], const Native l[3], Native V,
-                                 const HexahedronControl& control, Native kept[3][4]) {
+                                 const SolidControl& control, Native kept[3][4]) {
   const Native bending = control.QM * control.plate_modulus / 3 * V, shear = control.QM * control.G / 3 * V,
                along = control.QM * control.E / 9 * V;
   for (int b = 0; b < 3; ++b) {
@@ -165,9 +160,8 @@ COURANT_INLINE void strain_modes(const Native q[3][4], const Native l[3], Native
 /// Rates of the modes along the axes in the middle of the step. `force`: out, along space, as elements lie at
 /// the end of the step. Returns the power.
 COURANT_INLINE Native assumed_strain_forces(const Triple a[7], const Native rate[3][4], Real dt, Index k,
-                                            const HexahedronControl& control,
-                                            const HexahedronScratch& scratch, Native kept[3][4],
-                                            Native force[3][4]) {
+                                            const SolidControl& control, const SolidScratch& scratch,
+                                            Native kept[3][4], Native force[3][4]) {
   Triple middle[3];
   for (int m = 0; m < 3; ++m) middle[m] = a[m] - (0.5 * dt) * triple(scratch.speed + 3 * m, k);
   const AssumedStrain brick = axes_of(middle), end = axes_of(a);
@@ -193,9 +187,8 @@ COURANT_INLINE Native assumed_strain_forces(const Triple a[7], const Native rate
 
 /// Of each direction and mode those of the step before; a stiffness turns with the element, and so do its
 /// rates from the middle of the step.
-COURANT_INLINE void old_hourglass_forces(Index first, Index n, Index k, bool stiff,
-                                         const HexahedronState& state, const HexahedronScratch& scratch,
-                                         Native kept[3][4], Native rate[3][4]) {
+COURANT_INLINE void old_hourglass_forces(Index first, Index n, Index k, bool stiff, const SolidState& state,
+                                         const SolidScratch& scratch, Native kept[3][4], Native rate[3][4]) {
   for (int m = 0; m < 4; ++m)
     for (int i = 0; i < 3; ++i) kept[i][m] = load(state.hourglass_force[3 * m + i] + first, n);
   if (!stiff) return;
@@ -206,8 +199,8 @@ COURANT_INLINE void old_hourglass_forces(Index first, Index n, Index k, bool sti
   }
 }
 
-COURANT_INLINE void viscosity_of(Index first, Index n, Index k, const HexahedronControl& control,
-                                 const HexahedronState& state, HexahedronScratch& scratch) {
+COURANT_INLINE void viscosity_of(Index first, Index n, Index k, const SolidControl& control,
+                                 const SolidState& state, SolidScratch& scratch) {
   const Native denser = 1.0 + load(scratch.compression + k), V = load(state.V0 + first, n) / denser;
   const Native r = inverse_cube_root(V), l = V * r * r;
   const Native q = bulk_viscosity(load(state.rho0 + first, n) * denser, l, load(scratch.sound_speed + k),
@@ -218,12 +211,12 @@ COURANT_INLINE void viscosity_of(Index first, Index n, Index k, const Hexahedron
   store(state.viscous_pressure + first, q, n);
 }
 
-COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const HexahedronControl& control,
-                              const HexahedronState& state, HexahedronScratch& scratch) {
+COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const SolidControl& control,
+                              const SolidState& state, SolidScratch& scratch) {
   Triple a[7];
-  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.place + 3 * m, k);
+  for (int m = 0; m < 7; ++m) a[m] = triple(scratch.position + 3 * m, k);
   const Geometry now = geometry(a);
-  const Compressed of = compressed(first, n, k, dt, control, state, a, now.V64, scratch);
+  const Compressed of = compressed(first, n, k, dt, control, state, now.V64, thickness(a, now.V64), scratch);
   const Native inverse_V64 = of.inverse_V64, rho = of.rho, c = of.c, l = of.l, q = of.q;
 
   Native s[6], rate[3][4], modes[7], f[8], power = all(0);
@@ -253,8 +246,8 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Hexa
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
 }
 
-void strain(const HexahedronLoops::Block& block, const HexahedronMesh& mesh, const HexahedronControl& control,
-            const HexahedronState& state, HexahedronScratch& scratch) {
+void strain(const ElementBlock& block, const SolidMesh& mesh, const SolidControl& control,
+            const SolidState& state, SolidScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     strain_of(block.begin + k, native_lanes, k, block.dt, mesh, control, state, scratch);
@@ -262,8 +255,8 @@ void strain(const HexahedronLoops::Block& block, const HexahedronMesh& mesh, con
     strain_of(block.begin + whole, block.count - whole, whole, block.dt, mesh, control, state, scratch);
 }
 
-void viscosity(const HexahedronLoops::Block& block, const HexahedronControl& control,
-               const HexahedronState& state, HexahedronScratch& scratch) {
+void viscosity(const ElementBlock& block, const SolidControl& control, const SolidState& state,
+               SolidScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     viscosity_of(block.begin + k, native_lanes, k, control, state, scratch);
@@ -271,7 +264,7 @@ void viscosity(const HexahedronLoops::Block& block, const HexahedronControl& con
     viscosity_of(block.begin + whole, block.count - whole, whole, control, state, scratch);
 }
 
-void work(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch) {
+void work(const ElementBlock& block, const SolidState& state, SolidScratch& scratch) {
   const Real *dxx = scratch.rate[0], *dyy = scratch.rate[1], *dzz = scratch.rate[2], *dxy = scratch.rate[3],
              *dyz = scratch.rate[4], *dzx = scratch.rate[5], *volume = scratch.middle_volume;
   const Real *xx = state.stress[0] + block.begin, *yy = state.stress[1] + block.begin,
@@ -292,8 +285,8 @@ void work(const HexahedronLoops::Block& block, const HexahedronState& state, Hex
         (1.0 / 3) * (xx[i] + yy[i] + zz[i]) * (opened[i] - half * volume[i] * (dxx[i] + dyy[i] + dzz[i]));
 }
 
-HexahedronLoops::StableStep forces(const HexahedronLoops::Block& block, const HexahedronControl& control,
-                                   const HexahedronState& state, HexahedronScratch& scratch) {
+StableStep forces(const ElementBlock& block, const SolidControl& control, const SolidState& state,
+                  SolidScratch& scratch) {
   const Index whole = block.count - block.count % native_lanes;
   for (Index k = 0; k < whole; k += native_lanes)
     forces_of(block.begin + k, native_lanes, k, block.dt, control, state, scratch);
@@ -304,8 +297,45 @@ HexahedronLoops::StableStep forces(const HexahedronLoops::Block& block, const He
 
 }  // namespace
 
-HexahedronLoops hexahedron_loops() {
+OnePointLoops hexahedron_loops() {
   return {&strain, &viscosity, &work, &forces};
 }
 
 }  // namespace courant::COURANT_SIMD
+
+#ifdef COURANT_ONCE
+namespace courant {
+
+COURANT_DECLARE_VARIANTS(hexahedron_loops)
+
+OnePointLoops hexahedron_loops() {
+  return COURANT_VARIANT(hexahedron_loops)();
+}
+
+namespace {
+
+const RegisterSolidFormulation one_point{
+    {.elforms = {{.number = 1, .offer = "0, 1 (one point and hourglass control by *HOURGLASS)"},
+                 {.number = 15,
+                  .nodes = 6,
+                  .shape = "pentahedra",
+                  .offer = "15 and 115 (pentahedra)",
+                  .warning = "pentahedra of part {0} have one point here, not 2"},
+                 {.number = 115, .nodes = 6, .shape = "pentahedra"}},
+     .one_point = &hexahedron_loops,
+     .has_modes = true}};
+const RegisterSolidFormulation tetrahedra{
+    {.elforms = {{.number = 10, .nodes = 4, .shape = "tetrahedra", .offer = "10 (tetrahedra)"}},
+     .one_point = &hexahedron_loops}};
+const RegisterSolidFormulation nodal_pressures{
+    {.elforms = {{.number = 13,
+                  .nodes = 4,
+                  .shape = "tetrahedra",
+                  .offer = "13 (tetrahedra with pressures averaged over nodes)"}},
+     .one_point = &hexahedron_loops,
+     .nodal_pressure = true}};
+
+}  // namespace
+
+}  // namespace courant
+#endif

@@ -80,10 +80,7 @@ class Reader {
   }
 
   /// Whether its solids have modes without a strain at their points.
-  bool has_modes(const ModelPart& part) const {
-    const int formulation = solid_formulation(deck_, part);
-    return formulation != 2 && formulation != 10 && formulation != 13;
-  }
+  bool has_modes(const ModelPart& part) const { return solid_formulation(deck_, part).has_modes; }
 
   void check_coefficient(const Entry& card, const char* field, const SolidViscosity& of) {
     const Real value = of.qm, most = of.ihq == assumed_strain ? stable_assumed : stable_qm;

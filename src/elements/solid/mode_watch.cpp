@@ -79,7 +79,7 @@ Real contracted(const Eigen::Matrix<Real, 1, 6>& S, const Vec& v, const Vec& w) 
 struct WatchedSolids {
   const ElementGroup& group;
   Id part;
-  HexahedronControl material;
+  SolidControl material;
   bool stores;  ///< hourglass control is a stiffness
   const Field<Real>&internal, &hourglass;
   const Field<Real>* plastic;
@@ -176,8 +176,8 @@ bool is_elastic(const StrengthLaw& law) {
 
 bool is_examined(const SolidPart& p) {
   const StrengthLaw* law = p.law.get();
-  return law && !p.full && !p.nodal && law->shear_modulus() > 0 && !law->axes() &&
-         (is_elastic(*law) || plastic_strain_of(*law) >= 0);
+  return law && p.formulation->points == 1 && !p.formulation->nodal_pressure && law->shear_modulus() > 0 &&
+         !law->axes() && (is_elastic(*law) || plastic_strain_of(*law) >= 0);
 }
 
 class OfModes : public ShapeWatch {
@@ -233,7 +233,7 @@ SecondGradient second_gradient(const Corners& start, const Corners& now) {
   return out;
 }
 
-Real bending_energy(const Corners& start, const SecondGradient& gradient, const HexahedronControl& material) {
+Real bending_energy(const Corners& start, const SecondGradient& gradient, const SolidControl& material) {
   const Modes A = modes_of(start);
   const Brick brick = brick_of(A);
   const Vec& l = brick.l;
@@ -266,7 +266,7 @@ std::shared_ptr<ShapeWatch> make_mode_watch(const std::vector<SolidPart>& parts,
       return dynamic_cast<const Field<Real>*>(group->fields.find(name));
     };
     const int plastic = plastic_strain_of(*part.law);
-    const HexahedronControl control = control_of(part);
+    const SolidControl control = control_of(part);
     WatchedSolids w{
         .group = *group,
         .part = world.part_ids[static_cast<std::size_t>(group->part)],

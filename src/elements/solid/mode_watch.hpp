@@ -17,7 +17,7 @@ SecondGradient second_gradient(const std::array<Vec, 8>& start, const std::array
 /// What that would cost in the material, by the assumed strains of IHQ 6 with QM 1 (docs/theory.md, Solids).
 /// [ML2/T2]
 Real bending_energy(const std::array<Vec, 8>& start, const SecondGradient& gradient,
-                    const HexahedronControl& material);
+                    const SolidControl& material);
 
 /// Examines solids of one point: the energy that their bending modes would cost in the material, less what
 /// hourglass control stores. Modes are means over the nodes first, so that hourglass patterns, which

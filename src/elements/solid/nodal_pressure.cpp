@@ -11,13 +11,13 @@ namespace courant {
 
 namespace {
 
-Real mean_stress(const HexahedronState& state, Index e) {
+Real mean_stress(const SolidState& state, Index e) {
   return (state.stress[0][e] + state.stress[1][e] + state.stress[2][e]) / 3;
 }
 
 /// Half a step's work of the mean stress through `opened`, less that of the trace of D, which is counted.
-void add_work(const HexahedronLoops::Block& block, Index i, Real trace, const HexahedronState& state,
-              HexahedronScratch& scratch, const NodalPressure::Scratch& own) {
+void add_work(const ElementBlock& block, Index i, Real trace, const SolidState& state, SolidScratch& scratch,
+              const NodalPressure::Scratch& own) {
   scratch.work[i] += 0.5 * mean_stress(state, block.begin + i) *
                      (own.opened[i] - block.dt * scratch.middle_volume[i] * trace);
 }
@@ -90,8 +90,8 @@ void NodalPressure::declare(Accesses& a) const {
   a.reads(ratio_, Reach::others).updates(counted_).writes(pressure_);
 }
 
-void NodalPressure::strain(const HexahedronLoops::Block& block, const HexahedronState& state,
-                           HexahedronScratch& scratch, Scratch& own) const {
+void NodalPressure::strain(const ElementBlock& block, const SolidState& state, SolidScratch& scratch,
+                           Scratch& own) const {
   for (Index i = 0; i < block.count; ++i) {
     const Index e = block.begin + i;
     const bool counts = counted_[e] > 0;
@@ -110,16 +110,15 @@ void NodalPressure::strain(const HexahedronLoops::Block& block, const Hexahedron
   }
 }
 
-void NodalPressure::work(const HexahedronLoops::Block& block, const HexahedronState& state,
-                         HexahedronScratch& scratch, const Scratch& own) const {
+void NodalPressure::work(const ElementBlock& block, const SolidState& state, SolidScratch& scratch,
+                         const Scratch& own) const {
   for (Index i = 0; i < block.count; ++i) {
     const Real trace = scratch.rate[0][i] + scratch.rate[1][i] + scratch.rate[2][i];
     add_work(block, i, trace, state, scratch, own);
   }
 }
 
-void NodalPressure::keep(const HexahedronLoops::Block& block, const HexahedronState& state,
-                         const Erosion* erosion) const {
+void NodalPressure::keep(const ElementBlock& block, const SolidState& state, const Erosion* erosion) const {
   for (Index e = block.begin; e < block.begin + block.count; ++e) {
     if (erosion && erosion->dead(e)) counted_[e] = 0;
     pressure_[e] = counted_[e] * (state.viscous_pressure[e] - mean_stress(state, e));

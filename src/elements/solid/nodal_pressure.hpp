@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "elements/erosion.hpp"
-#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/solid_loops.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -33,13 +33,12 @@ class NodalPressure {
   /// Behind `strain` of the loops: the trace of D, and the compression. The mean stress works through
   /// `opened`: what that is more than in `strain` is added. With an equation of state (`heats`) that of
   /// `scratch` is made the same, and all that follows works through it.
-  void strain(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch,
-              Scratch& own) const;
+  void strain(const ElementBlock& block, const SolidState& state, SolidScratch& scratch, Scratch& own) const;
   /// Behind the law: the same of the new stress; not with an equation of state.
-  void work(const HexahedronLoops::Block& block, const HexahedronState& state, HexahedronScratch& scratch,
+  void work(const ElementBlock& block, const SolidState& state, SolidScratch& scratch,
             const Scratch& own) const;
   /// Behind the forces, once it is known who has failed. `erosion`: null where nothing can.
-  void keep(const HexahedronLoops::Block& block, const HexahedronState& state, const Erosion* erosion) const;
+  void keep(const ElementBlock& block, const SolidState& state, const Erosion* erosion) const;
 
   /// Makes it, with the passes before and behind that one.
   static std::shared_ptr<NodalPressure> add(const ElementGroup& group, Real relative_volume, World& world);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -17,56 +15,51 @@ using S = SectionSolid;
 
 const RegisterKeyword<SectionSolid> section_solid{section_solid_table()};
 
-/// Formulations by the number of different nodes of their elements; 0: any. `points`: what LS-DYNA has, of
-/// which those of pentahedra are too many here.
-struct Formulation {
-  int elform, nodes, points;
-  const char* shape;
+struct Found {
+  const SolidFormulation* formulation = nullptr;
+  const Elform* elform = nullptr;
 };
-constexpr Formulation formulations[] = {{1, 0, 1, ""},
-                                        {2, 0, 8, ""},
-                                        {-1, 0, 8, ""},
-                                        {-2, 0, 8, ""},
-                                        {10, 4, 1, "tetrahedra"},
-                                        {13, 4, 1, "tetrahedra"},
-                                        {15, 6, 2, "pentahedra"},
-                                        {115, 6, 1, "pentahedra"}};
-
-const Formulation* formulation_of(const S& s) {
-  const auto* found = std::find_if(std::begin(formulations), std::end(formulations),
-                                   [&](const Formulation& f) { return f.elform == s.elform; });
-  return found == std::end(formulations) ? nullptr : found;
+Found find_elform(int number) {
+  for (const SolidFormulation& one : solid_formulations())
+    for (const Elform& elform : one.elforms)
+      if (number != 0 && elform.number == number) return {&one, &elform};
+  return {};
 }
 
 void check_shapes(const Deck& deck, const Model& model, Index part, const S& s, Diagnostics& diagnostics) {
-  const Formulation* found = formulation_of(s);
-  if (!found) return;
-  for (const ModelSolid& solid : model.solids)
-    if (solid.part == part && found->nodes != 0 && solid.different_corners() != found->nodes)
+  const auto [formulation, elform] = find_elform(s.elform);
+  if (!formulation) return;
+  const Id id = model.parts[static_cast<std::size_t>(part)].id;
+  for (const ModelSolid& solid : model.solids) {
+    if (solid.part != part) continue;
+    if (elform->nodes != 0 && solid.different_nodes() != elform->nodes)
       return deck.error(diagnostics, s, "ELFORM",
                         fmt::format("{} is a formulation of {}, and solid {} of part {} is none", s.elform,
-                                    found->shape, solid.id, model.parts[static_cast<std::size_t>(part)].id),
-                        "1 takes all shapes");
-  if (found->elform < 0)
-    deck.warning(
-        diagnostics, s, "ELFORM",
-        fmt::format("{} is not there: the solids of part {} are those of ELFORM 2, without the strains that "
-                    "make flat elements bend softer",
-                    found->elform, model.parts[static_cast<std::size_t>(part)].id),
-        "2 says the same without this warning; keep elements of bending parts near cubes");
-  if (found->nodes == 6 && found->points > 1)
-    deck.warning(diagnostics, s, "ELFORM",
-                 fmt::format("{} of part {} have one point here, not {}", found->shape,
-                             model.parts[static_cast<std::size_t>(part)].id, found->points));
+                                    elform->shape, solid.id, id),
+                        "1 takes all shapes without nodes on edges");
+    if (elform->nodes == 0 && solid.has_nodes_on_edges())
+      return deck.error(
+          diagnostics, s, "ELFORM",
+          fmt::format("{} is no formulation of tetrahedra of ten nodes, as is solid {} of part {}", s.elform,
+                      solid.id, id),
+          "16 is one");
+  }
+  if (*elform->warning != 0)
+    deck.warning(diagnostics, s, "ELFORM", fmt::format(fmt::runtime(elform->warning), id, s.elform),
+                 elform->hint);
 }
 
 void check_fields(const Deck& deck, const S& s, Diagnostics& diagnostics) {
-  if (!formulation_of(s))
-    deck.error(
-        diagnostics, s, "ELFORM", fmt::format("'{}' is not supported", s.elform),
-        "supported values: 0, 1 (one point and hourglass control by *HOURGLASS), 2 (eight points; -1 and -2 "
-        "become it), 10 (tetrahedra), 13 (tetrahedra with pressures averaged over nodes), 15 and 115 "
-        "(pentahedra)");
+  if (!find_elform(s.elform).elform) {
+    std::map<int, std::string> offers;
+    for (const SolidFormulation& one : solid_formulations())
+      for (const Elform& elform : one.elforms)
+        if (*elform.offer != 0) offers.emplace(elform.number, elform.offer);
+    std::string all;
+    for (const auto& [number, offer] : offers) all += (all.empty() ? "" : ", ") + offer;
+    deck.error(diagnostics, s, "ELFORM", fmt::format("'{}' is not supported", s.elform),
+               "supported values: " + all);
+  }
   const auto refuse = [&](const char* field, Real value, const char* what) {
     if (value != 0)
       deck.error(diagnostics, s, field, fmt::format("{} are not supported, got '{:g}'", what, value),
@@ -84,10 +77,11 @@ bool is_formulation_of_users(const SectionSolid& s) {
   return s.elform >= 101 && s.elform <= 105;
 }
 
-int solid_formulation(const Deck& deck, const ModelPart& part) {
+const SolidFormulation& solid_formulation(const Deck& deck, const ModelPart& part) {
   for (const S& s : deck.all<S>())
-    if (s.secid == part.secid) return s.elform < 0 ? 2 : s.elform;
-  return 1;
+    if (s.secid == part.secid)
+      if (const SolidFormulation* found = find_elform(s.elform).formulation) return *found;
+  return *find_elform(1).formulation;
 }
 
 void check_solid_sections(const Deck& deck, const Model& model, Diagnostics& diagnostics) {

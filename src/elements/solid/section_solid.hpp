@@ -1,12 +1,13 @@
 #pragma once
+#include "elements/solid/formulation.hpp"
 #include "elements/solid/solid_cards.hpp"
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 
 namespace courant {
 
-/// ELFORM of a part of solids; 2 where it becomes that, 1 where there is no section.
-int solid_formulation(const Deck& deck, const ModelPart& part);
+/// Of a part of solids, by its ELFORM; that of 1 where there is no section, or none that is there.
+const SolidFormulation& solid_formulation(const Deck& deck, const ModelPart& part);
 
 /// Checks that each part with solids has a section with a formulation that is there. Sections that no such
 /// part names may be of any kind.

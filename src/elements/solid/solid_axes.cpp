@@ -21,12 +21,14 @@ void check_directions(const Deck& deck, const Model& model, Index part, const Ma
   }
 }
 
-void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const HexahedronMesh& mesh,
+void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const SolidMesh& mesh,
                     Field<Real>& tensor, FullPoints* points) {
   for (Index e = 0; e < group.size(); ++e) {
     std::array<Vec, 8> corner;
+    const std::array<int, 8> corners = group.hexahedron();
     for (std::size_t c = 0; c < 8; ++c)
-      for (std::size_t k = 0; k < 3; ++k) corner[c][static_cast<int>(k)] = mesh.x[k][mesh.corner[c][e]];
+      for (std::size_t k = 0; k < 3; ++k)
+        corner[c][static_cast<int>(k)] = mesh.x[k][mesh.corner[corners[c]][e]];
     Matrix directions = Matrix::Identity();
     directions_in_solid(axes, corner, directions);  // check_directions has looked
     const std::array<Real, 6> laid = direction_tensor(directions);

@@ -10,8 +10,8 @@ void check_directions(const Deck& deck, const Model& model, Index part, const Ma
                       Diagnostics& diagnostics);
 
 /// As elements lie now, into the first tensor of the law's history: of the elements, and of their points
-/// where they have eight.
-void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const HexahedronMesh& mesh,
+/// where they have several.
+void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const SolidMesh& mesh,
                     Field<Real>& tensor, FullPoints* points);
 
 }  // namespace courant

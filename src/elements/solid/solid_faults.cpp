@@ -17,8 +17,7 @@ void stop_for_compression(const ElementGroup& group, Id part, Real mu_limit, Ind
       StopCause::density);
 }
 
-void stop_for_volume(const ElementGroup& group, Id part, const HexahedronLoops::StableStep& found,
-                     const Clock& clock) {
+void stop_for_volume(const ElementGroup& group, Id part, const StableStep& found, const Clock& clock) {
   const ReadsForMessage unchecked;
   throw RunError(
       fmt::format("solid {} of part {} has {} at time {:.6g}, cycle {}", group.id[found.smallest], part,

@@ -1,6 +1,6 @@
 #pragma once
 // Solids with which a run cannot go on.
-#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/solid_loops.hpp"
 #include "state/entities.hpp"
 #include "state/pass.hpp"
 
@@ -10,7 +10,7 @@ namespace courant {
 [[noreturn]] void stop_for_compression(const ElementGroup& group, Id part, Real mu_limit, Index e,
                                        const Clock& clock);
 /// An element is turned inside out, or has a volume that is no number.
-[[noreturn]] void stop_for_volume(const ElementGroup& group, Id part,
-                                  const HexahedronLoops::StableStep& found, const Clock& clock);
+[[noreturn]] void stop_for_volume(const ElementGroup& group, Id part, const StableStep& found,
+                                  const Clock& clock);
 
 }  // namespace courant

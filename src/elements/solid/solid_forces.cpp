@@ -20,9 +20,8 @@ namespace courant {
 
 namespace {
 
-/// Hexahedra of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity, and the
-/// forces on the corners, which a pass over the nodes gathers. Formulae: hexahedron_loops.hpp,
-/// full_hexahedron_loops.hpp.
+/// Solids of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity, and the
+/// forces on the corners, which a pass over the nodes gathers. Formulae: in the files of the formulations.
 class SolidForces : public Material,
                     public TimeLimit,
                     public EnergyTerm,
@@ -41,7 +40,7 @@ class SolidForces : public Material,
                                         .dimension = "M/LT2",
                                         .components = 6,
                                         .output = true,
-                                        .restart = !part.full})),
+                                        .restart = part.formulation->points == 1})),
         V0_(group.V0),
         rho0_(group.fields.add<Real>({.name = "reference_density", .dimension = "M/L3"})),
         internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
@@ -50,13 +49,15 @@ class SolidForces : public Material,
         bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})),
         viscous_(group.fields.add<Real>({.name = "bulk_viscosity_pressure", .dimension = "M/LT2"})) {
     control_ = control_of(part);
+    const bool several = part.formulation->points > 1;
+    if (!several) loops_ = part.formulation->one_point();
     for (const HistoryVariable& h : law_->history())
       history_.push_back(&group.fields.add<Real>({.name = h.name,
                                                   .dimension = h.dimension,
                                                   .components = h.components,
                                                   .output = true,
-                                                  .restart = !part.full}));
-    if (part.full) full_ = std::make_unique<FullPoints>(group, *law_);
+                                                  .restart = !several}));
+    if (several) full_ = std::make_unique<FullPoints>(*part.formulation, group, *law_);
     // the plain modes of corners that coincide resist even a rigid rotation
     if (control_.hourglass == 1 && group.repeats_nodes) control_.hourglass = 2;
     if (control_.QM > 0 && !full_)
@@ -70,12 +71,11 @@ class SolidForces : public Material,
     }
     limit_to_frequency(held, world);
     if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0) {
-      const int points = full_ ? FullHexahedronLoops::points : 1;
-      damping_ = std::make_unique<StiffnessDamping>(coef, group_, 1, points);
+      damping_ = std::make_unique<StiffnessDamping>(coef, group_, 1, part.formulation->points);
       if (full_) full_->damp_by(damping_.get());
     }
     if (part.pressure) start_pressure();
-    if (part.nodal) nodal_ = NodalPressure::add(group, part.relative_volume(), world);
+    if (part.formulation->nodal_pressure) nodal_ = NodalPressure::add(group, part.relative_volume(), world);
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
   }
@@ -124,11 +124,11 @@ class SolidForces : public Material,
     of_pressure_.assign(found_.size(), {});
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
-    FullHexahedronScratch scratch;
-    HexahedronLoops::StableStep& found = found_[static_cast<std::size_t>(begin / block_size)];
+    PointScratch scratch;
+    StableStep& found = found_[static_cast<std::size_t>(begin / block_size)];
     const Index count = end - begin;
     if (erosion_) erosion_->begin_block(begin, count);
-    found = advance({mesh_, control_, state_, *law_, material_.pressure.get(), nodal_.get()}, clock.dt_old,
+    found = advance({{mesh_, control_, state_, *law_}, material_.pressure.get(), nodal_.get()}, clock.dt_old,
                     begin, end, scratch, erosion_ ? &clock : nullptr);
     if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
     if (erosion_)
@@ -144,7 +144,7 @@ class SolidForces : public Material,
   }
   void finish(World& world, const Clock& clock) override {
     std::int64_t without_speed = 0;
-    for (const HexahedronLoops::StableStep& found : found_)
+    for (const StableStep& found : found_)
       if (!(found.least_volume > 0)) stop_for_volume(group_, part_id_, found, clock);
     for (const SolidPressure::Faults& found : of_pressure_) {
       without_speed += found.without_speed;
@@ -157,8 +157,8 @@ class SolidForces : public Material,
   }
 
   Limit limit(const World&, const Clock&) override {
-    const HexahedronLoops::StableStep* least = &found_.front();
-    for (const HexahedronLoops::StableStep& found : found_)
+    const StableStep* least = &found_.front();
+    for (const StableStep& found : found_)
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
     return {tssfac_ * least->step, fmt::format("solid {} of part {}{}", group_.id[least->shortest], part_id_,
                                                by_mesh_ ? " (frequency of its mesh)" : "")};
@@ -222,18 +222,14 @@ class SolidForces : public Material,
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
 
   /// What a block of elements moves by, and answers with.
-  struct BlockOfSolids {
-    const HexahedronMesh& mesh;
-    const HexahedronControl& control;
-    const HexahedronState& state;
-    const StrengthLaw& law;
+  struct BlockOfSolids : FullPoints::BlockOfSolids {
     const SolidPressure* pressure;
     const NodalPressure* nodal;
   };
 
-  HexahedronLoops::StableStep advance(const BlockOfSolids& of, Real dt, Index begin, Index end,
-                                      FullHexahedronScratch& scratch, const Clock* failing = nullptr) {
-    const HexahedronLoops::Block block{begin, end - begin, dt};
+  StableStep advance(const BlockOfSolids& of, Real dt, Index begin, Index end, PointScratch& scratch,
+                     const Clock* failing = nullptr) {
+    const ElementBlock block{begin, end - begin, dt};
     if (full_) return advance_points(of, block, scratch, failing);
     loops_.strain(block, of.mesh, of.control, of.state, scratch);
     if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
@@ -261,30 +257,28 @@ class SolidForces : public Material,
                    {scratch.half_turn[0], scratch.half_turn[1], scratch.half_turn[2]},
                    scratch.middle_volume,
                    scratch.work});
-    HexahedronState damped = of.state;
+    SolidState damped = of.state;
     for (int k = 0; k < 6; ++k) damped.stress[k] = damping_->damped(0, k);
     return push(of, block, damped, scratch, by_nodes);
   }
-  HexahedronLoops::StableStep push(const BlockOfSolids& of, const HexahedronLoops::Block& block,
-                                   const HexahedronState& state, HexahedronScratch& scratch,
-                                   const NodalPressure::Scratch& by_nodes) const {
+  StableStep push(const BlockOfSolids& of, const ElementBlock& block, const SolidState& state,
+                  SolidScratch& scratch, const NodalPressure::Scratch& by_nodes) const {
     loops_.work(block, state, scratch);
     if (of.nodal && !state.heats) of.nodal->work(block, state, scratch, by_nodes);
     return loops_.forces(block, of.control, state, scratch);
   }
 
-  /// The same with eight points.
-  HexahedronLoops::StableStep advance_points(const BlockOfSolids& of, const HexahedronLoops::Block& block,
-                                             FullHexahedronScratch& scratch, const Clock* failing) {
-    const FullPoints::BlockOfSolids answer{of.mesh, of.control, of.state, of.law};
+  /// The same with several points.
+  StableStep advance_points(const BlockOfSolids& of, const ElementBlock& block, PointScratch& scratch,
+                            const Clock* failing) {
     const FullPoints::Between between{
         [&] {
           if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
         },
         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }};
-    if (!of.pressure) return full_->advance(answer, block, scratch, between);
+    if (!of.pressure) return full_->advance(of, block, scratch, between);
     FullPoints::Fluid fluid{*of.pressure, internal_.data(), memory()};
-    const HexahedronLoops::StableStep out = full_->advance(answer, fluid, block, scratch, between);
+    const StableStep out = full_->advance(of, fluid, block, scratch, between);
     of_pressure_[static_cast<std::size_t>(block.begin / block_size)] = fluid.found;
     return out;
   }
@@ -298,8 +292,8 @@ class SolidForces : public Material,
   }
 
   /// The law gives the deviator, an equation of state the rest.
-  SolidPressure::Faults update_with_pressure(const BlockOfSolids& of, const HexahedronLoops::Block& block,
-                                             HexahedronScratch& scratch, PointBlock& points) const {
+  SolidPressure::Faults update_with_pressure(const BlockOfSolids& of, const ElementBlock& block,
+                                             SolidScratch& scratch, PointBlock& points) const {
     SolidPressure::Scratch own;
     of.pressure->split(block, of.state, internal_.data(), memory(), scratch, own);
     loops_.viscosity(block, of.control, of.state, scratch);
@@ -332,39 +326,40 @@ class SolidForces : public Material,
     const Real smallest = -maximum(n, [&](Index e) { return -V0_[e]; });
     if (!(smallest > 0)) return;
     const GroupNodes own(group_, held, world.nodes);
-    HexahedronMesh mesh;
+    SolidMesh mesh;
     for (std::size_t k = 0; k < 3; ++k) mesh.x[k] = own.x[k].data();
     for (std::size_t c = 0; c < own.corner.size(); ++c) mesh.corner[c] = own.corner[c].data();
-    HexahedronControl elastic = control_;
+    SolidControl elastic = control_;
     elastic.Q1 = elastic.Q2 = elastic.MU = 0;
     if (!elastic.stiff()) elastic.QM = 0;
-    std::vector<HexahedronLoops::StableStep> found(found_.size());
+    std::vector<StableStep> found(found_.size());
     // an equation of state answers a change of volume, which nothing moves for here
     const std::shared_ptr<StrengthLaw> linear =
         material_.pressure ? linear_response(*material_.pressure, *law_) : law_;
-    HexahedronState state = state_;
+    SolidState state = state_;
     state.heats = false;
     const Real omega = largest_frequency(
         own.m, own.held, small_strain * std::cbrt(smallest), [&](const NodalVector& u, NodalVector& Ku) {
           for (std::size_t k = 0; k < 3; ++k) mesh.v[k] = u[k].data();
           reset();
           for_each_block(n, [&](Index begin, Index end) {
-            FullHexahedronScratch scratch;
+            PointScratch scratch;
             found[static_cast<std::size_t>(begin / block_size)] =
-                advance({mesh, elastic, state, *linear, nullptr, nullptr}, 1, begin, end, scratch);
+                advance({{mesh, elastic, state, *linear}, nullptr, nullptr}, 1, begin, end, scratch);
           });
           own.assemble(*group_.corner_force, -1, Ku);
         });
     Real step = std::numeric_limits<Real>::infinity();
-    for (const HexahedronLoops::StableStep& f : found) step = std::min(step, f.step);
+    for (const StableStep& f : found) step = std::min(step, f.step);
     reset();
     const Real asked = tssfac_;
     tssfac_ = below_frequency(asked, step, omega);
     by_mesh_ = tssfac_ < asked;
   }
 
-  std::shared_ptr<Erosion> make_erosion(const FailureRules& rules, World& world) {
-    auto out = std::make_shared<Erosion>(rules, group_, full_ ? FullHexahedronLoops::points : 1,
+  std::shared_ptr<Erosion> make_erosion(FailureRules rules, World& world) {
+    rules.law_points = material_.formulation->failing_points;
+    auto out = std::make_shared<Erosion>(rules, group_, material_.formulation->points,
                                          Erosion::Energies{&internal_, &bulk_viscosity_, &hourglass_}, world);
     out->vanishes(stress_);
     for (Field<Real>* h : history_)
@@ -377,14 +372,15 @@ class SolidForces : public Material,
   }
 
   /// Dead elements of a block are taken as a cube that does not move, and stay without stress.
-  void still_dead(Index begin, Index count, HexahedronScratch& scratch) const {
+  void still_dead(Index begin, Index count, SolidScratch& scratch) const {
     for (Index i = 0; i < count; ++i) {
       if (!erosion_->dead(begin + i)) continue;
       erosion_->clear(begin + i);
       for (auto& rate : scratch.rate) rate[i] = 0;
       for (auto& speed : scratch.speed) speed[i] = 0;
       for (auto& turn : scratch.half_turn) turn[i] = 0;
-      for (std::size_t k = 0; k < 21; ++k) scratch.place[k][i] = k == 0 || k == 4 || k == 8 ? 1 : 0;
+      for (std::size_t k = 0; k < SolidScratch::rows; ++k)
+        scratch.position[k][i] = k == 0 || k == 4 || k == 8 ? 1 : 0;
       for (auto& opened : scratch.opened) opened[i] = 0;
       scratch.compression[i] = scratch.work[i] = 0, scratch.middle_volume[i] = 1;
     }
@@ -423,7 +419,7 @@ class SolidForces : public Material,
   std::vector<Real> start_state(World& world) {
     int numbers = 0, tensors = 0;
     for (const HistoryVariable& h : law_->history()) numbers += h.components, tensors += h.is_tensor();
-    if (numbers > static_cast<int>(most_history) || tensors > HexahedronState::most_tensors)
+    if (numbers > static_cast<int>(most_history) || tensors > SolidState::most_tensors)
       throw std::logic_error("a law with more than 16 history numbers, or more than 2 tensors");
     // volumes by the loops themselves: what they give for V0 = 1
     const Index n = group_.size();
@@ -431,11 +427,15 @@ class SolidForces : public Material,
     for (Index e = 0; e < n; ++e) V0_[e] = 1, rho0_[e] = law_->ro;
     start(world, {});
     for (Index begin = 0; begin < n; begin += block_size) {
-      HexahedronScratch scratch;
-      const HexahedronLoops::Block block{begin, std::min<Index>(block_size, n - begin), 0};
-      loops_.strain(block, mesh_, control_, state_, scratch);
-      std::fill(scratch.sound_speed, scratch.sound_speed + block.count, material_.sound_speed());
-      loops_.forces(block, control_, state_, scratch);
+      PointScratch scratch;
+      const ElementBlock block{begin, std::min<Index>(block_size, n - begin), 0};
+      if (full_) {
+        full_->measure({mesh_, control_, state_, *law_}, block, material_.sound_speed(), scratch);
+      } else {
+        loops_.strain(block, mesh_, control_, state_, scratch);
+        std::fill(scratch.sound_speed, scratch.sound_speed + block.count, material_.sound_speed());
+        loops_.forces(block, control_, state_, scratch);
+      }
       for (Index k = 0; k < block.count; ++k) {
         const Index e = begin + k;
         V0_[e] = scratch.relative_volume[k] / material_.relative_volume();
@@ -460,19 +460,19 @@ class SolidForces : public Material,
   SolidPart material_;
   std::shared_ptr<StrengthLaw> law_;
   Id part_id_;
-  Real tssfac_;           ///< TSSFAC, or less where the mesh asks for it
-  bool by_mesh_ = false;  ///< it does
-  HexahedronLoops loops_ = hexahedron_loops();
-  HexahedronControl control_;
+  Real tssfac_;            ///< TSSFAC, or less where the mesh asks for it
+  bool by_mesh_ = false;   ///< it does
+  OnePointLoops loops_{};  ///< where elements have one point
+  SolidControl control_;
   Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
   Field<Real>& viscous_;                    ///< q of bulk viscosity
-  Field<Real>* hourglass_force_ = nullptr;  ///< null: eight points, or QM 0
+  Field<Real>* hourglass_force_ = nullptr;  ///< null: several points, or QM 0
   Field<Real>* memory_ = nullptr;           ///< of the equation of state; null: it has none
   std::vector<Field<Real>*> history_;
-  HexahedronMesh mesh_{};
-  HexahedronState state_{};
+  SolidMesh mesh_{};
+  SolidState state_{};
   std::vector<Real*> history_data_;
-  std::vector<HexahedronLoops::StableStep> found_;  ///< in each block
+  std::vector<StableStep> found_;  ///< in each block
   std::vector<SolidPressure::Faults> of_pressure_;
   std::unique_ptr<FullPoints> full_;           ///< null: elements have one point
   std::shared_ptr<NodalPressure> nodal_;       ///< null: pressures are those of elements

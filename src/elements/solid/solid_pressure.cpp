@@ -42,9 +42,8 @@ Real SolidPressure::initial_sound_speed() const {
   return std::sqrt((bulk_modulus() + 4 * law_->shear_modulus() / 3) * eos_->V0 / law_->ro);
 }
 
-void SolidPressure::evaluate(const HexahedronLoops::Block& block, const HexahedronState& state,
-                             const Real* energy, Real* memory, HexahedronScratch& scratch,
-                             Scratch& own) const {
+void SolidPressure::evaluate(const ElementBlock& block, const SolidState& state, const Real* energy,
+                             Real* memory, SolidScratch& scratch, Scratch& own) const {
   const Real* mu = scratch.compression;
   eos_->evaluate({block.count, mu, own.A, own.dA, own.B, own.dB, memory ? memory + block.begin : nullptr});
   const Real shear = 4 * law_->shear_modulus() / 3;
@@ -61,8 +60,8 @@ void SolidPressure::evaluate(const HexahedronLoops::Block& block, const Hexahedr
   std::fill_n(own.least_pressure, block.count, law_->pressure_cutoff());
 }
 
-void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronState& state,
-                          const Real* energy, Real* memory, HexahedronScratch& scratch, Scratch& own) const {
+void SolidPressure::split(const ElementBlock& block, const SolidState& state, const Real* energy,
+                          Real* memory, SolidScratch& scratch, Scratch& own) const {
   evaluate(block, state, energy, memory, scratch, own);
   Real *xx = state.stress[0] + block.begin, *yy = state.stress[1] + block.begin,
        *zz = state.stress[2] + block.begin;
@@ -73,9 +72,8 @@ void SolidPressure::split(const HexahedronLoops::Block& block, const HexahedronS
   }
 }
 
-void SolidPressure::begin(const HexahedronLoops::Block& block, const HexahedronControl& control,
-                          const HexahedronState& state, const Means& means, HexahedronScratch& scratch,
-                          Scratch& own) const {
+void SolidPressure::begin(const ElementBlock& block, const SolidControl& control, const SolidState& state,
+                          const Means& means, SolidScratch& scratch, Scratch& own) const {
   evaluate(block, state, means.energy, means.memory, scratch, own);
   for (Index i = 0; i < block.count; ++i) {
     scratch.work[i] -= means.pressure[i] * scratch.opened[0][i];
@@ -86,9 +84,9 @@ void SolidPressure::begin(const HexahedronLoops::Block& block, const HexahedronC
   std::copy_n(scratch.work, block.count, own.counted);
 }
 
-SolidPressure::Faults SolidPressure::complete(const HexahedronLoops::Block& block,
-                                              const HexahedronState& state, Real* pressure, Real* sound_speed,
-                                              HexahedronScratch& scratch, Scratch& own) const {
+SolidPressure::Faults SolidPressure::complete(const ElementBlock& block, const SolidState& state,
+                                              Real* pressure, Real* sound_speed, SolidScratch& scratch,
+                                              Scratch& own) const {
   const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
   Faults found;
   for (Index i = 0; i < block.count; ++i) {
@@ -113,8 +111,8 @@ Real SolidPressure::finish(Index i, Real E, Real mu, const Scratch& own, Real& s
   return p;
 }
 
-void SolidPressure::predict(const HexahedronLoops::Block& block, const HexahedronState& state,
-                            const HexahedronScratch& scratch, Scratch& own) const {
+void SolidPressure::predict(const ElementBlock& block, const SolidState& state, const SolidScratch& scratch,
+                            Scratch& own) const {
   const Real* V0 = state.V0 + block.begin;
   const Real cutoff = law_->pressure_cutoff();
 #pragma omp simd
@@ -125,9 +123,8 @@ void SolidPressure::predict(const HexahedronLoops::Block& block, const Hexahedro
   }
 }
 
-SolidPressure::Faults SolidPressure::complete(const HexahedronLoops::Block& block,
-                                              const HexahedronState& state, HexahedronScratch& scratch,
-                                              Scratch& own) const {
+SolidPressure::Faults SolidPressure::complete(const ElementBlock& block, const SolidState& state,
+                                              SolidScratch& scratch, Scratch& own) const {
   Real* const* stress = state.stress;
   const Real *V0 = state.V0 + block.begin, *mu = scratch.compression;
   Faults found;

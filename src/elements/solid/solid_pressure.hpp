@@ -3,7 +3,7 @@
 // the deviator, and the pressure comes with the energy that all stresses and the bulk viscosity have added.
 #include <memory>
 
-#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/solid_loops.hpp"
 #include "laws/eos/eos.hpp"
 #include "laws/strength/strength.hpp"
 #include "state/entities.hpp"
@@ -27,7 +27,7 @@ class SolidPressure {
     Real half_dv[block_size];         ///< dv [-]
     Real pressure[block_size];        ///< with that energy [M/LT2]
     Real least_pressure[block_size];  ///< the cut-off [M/LT2]
-    Real counted[block_size];         ///< of eight points: work that is in `energy` [ML2/T2]
+    Real counted[block_size];         ///< of several points: work that is in `energy` [ML2/T2]
   };
   /// How a block turned out.
   struct Faults {
@@ -48,16 +48,16 @@ class SolidPressure {
   /// Behind `strain`, before the law: leaves the deviator in the stress, energy and pressure in `own`, and
   /// the sound speed that q is to be made of in `scratch`. `energy`: internal, of the elements [ML2/T2];
   /// `memory`: what the law remembers of them, null where it does not.
-  void split(const HexahedronLoops::Block& block, const HexahedronState& state, const Real* energy,
-             Real* memory, HexahedronScratch& scratch, Scratch& own) const;
+  void split(const ElementBlock& block, const SolidState& state, const Real* energy, Real* memory,
+             SolidScratch& scratch, Scratch& own) const;
   /// Behind q, before the law.
-  void predict(const HexahedronLoops::Block& block, const HexahedronState& state,
-               const HexahedronScratch& scratch, Scratch& own) const;
+  void predict(const ElementBlock& block, const SolidState& state, const SolidScratch& scratch,
+               Scratch& own) const;
   /// Behind the law: pressure back into the stress, and the sound speed, which the law left its share in.
-  Faults complete(const HexahedronLoops::Block& block, const HexahedronState& state,
-                  HexahedronScratch& scratch, Scratch& own) const;
+  Faults complete(const ElementBlock& block, const SolidState& state, SolidScratch& scratch,
+                  Scratch& own) const;
 
-  // The same of elements with eight points and one pressure, whose deviators are told apart:
+  // The same of elements with several points and one pressure, whose deviators are told apart:
   /// What begins a step. `pressure`: of the block; energy and memory of all elements; tr D, of the block.
   struct Means {
     const Real *pressure, *energy;
@@ -65,24 +65,23 @@ class SolidPressure {
     const Real* trace;
   };
   /// Before the points: energy and pressure with the work of p and q so far, which is in `scratch`, too.
-  void begin(const HexahedronLoops::Block& block, const HexahedronControl& control,
-             const HexahedronState& state, const Means& means, HexahedronScratch& scratch,
-             Scratch& own) const;
+  void begin(const ElementBlock& block, const SolidControl& control, const SolidState& state,
+             const Means& means, SolidScratch& scratch, Scratch& own) const;
   /// Behind them, with their work in `scratch`: the pressure, its work, and in the place of the law's share
   /// the sound speed, both of the block.
-  Faults complete(const HexahedronLoops::Block& block, const HexahedronState& state, Real* pressure,
-                  Real* sound_speed, HexahedronScratch& scratch, Scratch& own) const;
+  Faults complete(const ElementBlock& block, const SolidState& state, Real* pressure, Real* sound_speed,
+                  SolidScratch& scratch, Scratch& own) const;
 
  private:
   /// Of the present compression: A, B, energy, and the sound speed that q is made of.
-  void evaluate(const HexahedronLoops::Block& block, const HexahedronState& state, const Real* energy,
-                Real* memory, HexahedronScratch& scratch, Scratch& own) const;
+  void evaluate(const ElementBlock& block, const SolidState& state, const Real* energy, Real* memory,
+                SolidScratch& scratch, Scratch& own) const;
   /// Of element i of a block: its pressure, with the energy E before its own work; makes of the law's share
   /// the sound speed.
   Real finish(Index i, Real E, Real mu, const Scratch& own, Real& sound_speed, Faults& found) const;
   std::shared_ptr<const EosLaw> eos_;
   std::shared_ptr<const StrengthLaw> law_;
-  HexahedronLoops loops_ = hexahedron_loops();
+  OnePointLoops loops_ = hexahedron_loops();
 };
 
 /// Of small strains from the state at the start: a law that stands in for `pressure` and its deviator.

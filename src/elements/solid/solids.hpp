@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "elements/erosion.hpp"
-#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/formulation.hpp"
 #include "elements/solid/hourglass.hpp"
 #include "elements/solid/solid_pressure.hpp"
 #include "laws/strength/strength.hpp"
@@ -17,9 +17,8 @@ namespace courant {
 struct SolidPart {
   std::shared_ptr<StrengthLaw> law;  ///< null: the part has no solids
   std::shared_ptr<SolidPressure>
-      pressure;        ///< of an equation of state; null: the law gives all of the stress
-  bool full = false;   ///< eight points (ELFORM 2), else one
-  bool nodal = false;  ///< pressures by nodes (ELFORM 13)
+      pressure;  ///< of an equation of state; null: the law gives all of the stress
+  const SolidFormulation* formulation = nullptr;  ///< null only without a law
   SolidViscosity viscosity;
   /// [M/LT2]
   Real bulk_modulus() const { return pressure ? pressure->bulk_modulus() : law->bulk_modulus(); }
@@ -34,7 +33,7 @@ struct SolidPart {
 std::vector<SolidPart> find_solid_parts(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// For the loops, of hourglass control, bulk viscosity and the material at rest.
-HexahedronControl control_of(const SolidPart& part);
+SolidControl control_of(const SolidPart& part);
 
 /// Adds a group of elements for each part with solids, and their masses to world.nodes. `node_of`: the node
 /// of the world of each node of the model.

@@ -1,7 +1,9 @@
 // Solid elements.
 #include <fmt/format.h>
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -13,13 +15,17 @@ namespace courant {
 namespace {
 
 constexpr const char* inside_out = "inside out, or without a volume";
+constexpr const char* bent_inwards = "a tetrahedron of ten nodes that is inside out at one of its points";
 constexpr std::size_t least_corners = 4, corners_of_hexahedron = 8;
 
 /// What is wrong with the nodes of a solid; nullptr: nothing.
 const char* wrong_nodes(const ModelSolid& solid) {
   const auto& node = solid.node;
-  if (std::any_of(node.begin() + corners_of_hexahedron, node.end(), [](Index n) { return n >= 0; }))
-    return "a tetrahedron of ten nodes";
+  if (std::any_of(node.begin() + corners_of_hexahedron, node.end(), [](Index n) { return n >= 0; })) {
+    std::set<Index> different(node.begin(), node.end());
+    different.erase(-1);
+    return different.size() == node.size() ? nullptr : "of nine nodes, or of ten that are not all different";
+  }
   if (solid.different_corners() < static_cast<int>(least_corners)) return "of less than four different nodes";
   const auto corner = solid.corners();
   if (std::count(corner.begin(), corner.end(), Index(-1)) > 0) return "of five to seven nodes";
@@ -96,31 +102,54 @@ void ModelBuilder::check_solid_shapes() {
     if (wrong)
       note(solid_cards_[k], solid.part, wrong);
     else if (!(volume(solid) > 0))
-      note(solid_cards_[k], solid.part, inside_out);
+      note(solid_cards_[k], solid.part, solid.has_nodes_on_edges() ? bent_inwards : inside_out);
   }
   for (const auto& key : order) {
     const auto& [card, count] = found[key];
-    const bool turned = key.second == inside_out;
+    const bool bent = key.second == bent_inwards, turned = bent || key.second == inside_out;
     const std::string others = count > 1 ? fmt::format(" (and so {} {} more of part {})",
                                                        count > 2 ? "are" : "is", count - 1, card->pid)
                                          : "";
     error(
         *card, "EID",
         turned
-            ? fmt::format("solid element {} is {}{}", card->eid, inside_out, others)
+            ? fmt::format("solid element {} is {}{}", card->eid, key.second, others)
             : fmt::format("solid element {} is {}, which is not supported{}", card->eid, key.second, others),
-        turned
+        bent ? "N1 to N3 run counter-clockwise seen from N4, N5 to N10 are near the middles of edges 12, 23, "
+               "31, 14, 24, 34"
+        : turned
             ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N5 to N8 stand above "
               "them"
             : "give a hexahedron eight nodes, a pentahedron N1 N2 N3 N4 N5 N5 N6 N6, a pyramid N5 four "
-              "times, a "
-              "tetrahedron N4 five times");
+              "times, a tetrahedron N4 five times");
   }
+}
+
+/// The least volume that one of the four points of a tetrahedron of ten nodes represents, times four, as its
+/// loops have them (src/elements/solid). [L3]
+Real ModelBuilder::least_volume(const ModelSolid& solid) const {
+  const auto x = [&](std::size_t k) { return model_.nodes[static_cast<std::size_t>(solid.node[k])].x; };
+  constexpr std::size_t on_edge[4][4] = {{0, 4, 6, 7}, {4, 0, 5, 8}, {6, 5, 0, 9}, {7, 8, 9, 0}};
+  Real out = std::numeric_limits<Real>::infinity();
+  for (std::size_t point = 0; point < 4; ++point) {
+    Matrix slopes = Matrix::Zero();  // by the coordinates of the last three corners
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b) {
+        const Real of_a = a == point ? 0.58541019662496845446 : 0.13819660112501051518;
+        const Vec term = a == b ? Vec((4 * of_a - 1) * x(a)) : Vec(4 * of_a * x(on_edge[a][b]));
+        if (b > 0) slopes.col(static_cast<int>(b) - 1) += term;
+        if (b == 0)
+          for (int k = 0; k < 3; ++k) slopes.col(k) -= term;
+      }
+    out = std::min(out, slopes.determinant() / 6);
+  }
+  return out;
 }
 
 /// Of a hexahedron with bilinear faces, from its modes xi, eta, zeta, eta zeta, zeta xi, xi eta (elements).
 /// [L3]
 Real ModelBuilder::volume(const ModelSolid& solid) const {
+  if (solid.has_nodes_on_edges()) return least_volume(solid);
   constexpr int sign[6][8] = {{-1, 1, 1, -1, -1, 1, 1, -1}, {-1, -1, 1, 1, -1, -1, 1, 1},
                               {-1, -1, -1, -1, 1, 1, 1, 1}, {1, 1, -1, -1, -1, -1, 1, 1},
                               {1, -1, -1, 1, -1, 1, 1, -1}, {1, -1, 1, -1, 1, -1, 1, -1}};
@@ -149,6 +178,18 @@ void ModelBuilder::check_control_solid(const ControlSolid& card) {
   };
   refuse("FMATRIX", card.fmatrix, "nothing here follows the deformation gradient");
   refuse("PSFAIL", card.psfail, "no solid is taken out of the run by its volume");
+  if (std::none_of(model_.solids.begin(), model_.solids.end(),
+                   [](const ModelSolid& solid) { return solid.has_nodes_on_edges(); }))
+    return;
+  if (card.niptets != 0 && card.niptets != 4)
+    deck_.warning(diagnostics_, card, "NIPTETS",
+                  fmt::format("tetrahedra of ten nodes have four points here, not {}", card.niptets));
+  const Id order[] = {card.pm1, card.pm2, card.pm3, card.pm4, card.pm5,
+                      card.pm6, card.pm7, card.pm8, card.pm9, card.pm10};
+  for (std::size_t k = 0; k < std::size(order); ++k)
+    if (order[k] != 0 && order[k] != static_cast<Id>(k) + 1)
+      return error(card, "PM1", "another order of the ten nodes of tetrahedra is not supported",
+                   "order the nodes in *ELEMENT_SOLID as the keyword reference has them");
 }
 
 /// `owner`: the particle that a node carries, or -1. `told`: nodes of which a message was given.

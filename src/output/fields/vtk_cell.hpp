@@ -9,7 +9,7 @@ namespace courant {
 
 struct VtkCell {
   std::uint8_t type;  ///< VTK's number: 1 vertex, 3 line, 5 triangle, 9 quadrilateral, 10 tetrahedron, 12
-                      ///< hexahedron, 13 wedge, 14 pyramid
+                      ///< hexahedron, 13 wedge, 14 pyramid, 24 tetrahedron of ten nodes
   std::vector<int> corners;  ///< of the element, in VTK's order
 };
 

@@ -18,10 +18,11 @@ void add_elements(const Member& member, const World& world, MassIntegrals& out) 
     if (!(g.volume[s] > 0)) add_shell(x, v, g.thickness[s], out);
   }
   for (const SkinCell& cell : member.cells) {
-    Hexahedron x, v;
-    for (std::size_t c = 0; c < x.size(); ++c)
-      x[c] = nodes.x.vec(cell.node[c]), v[c] = nodes.v.vec(cell.node[c]);
-    add_solid(x, v, out);
+    for (const std::array<Index, 8>& piece : cell.pieces()) {
+      Hexahedron x, v;
+      for (std::size_t c = 0; c < x.size(); ++c) x[c] = nodes.x.vec(piece[c]), v[c] = nodes.v.vec(piece[c]);
+      add_solid(x, v, out);
+    }
   }
 }
 

@@ -319,11 +319,12 @@ class BodyBuilder {
   /// The solids of a part; adds their nodes to those of its body.
   void cells_of(Index part, std::set<Index>& nodes, Member& member) {
     for (const ModelSolid& solid : model_.solids) {
-      const std::array<Index, 8> corner = solid.corners();
-      const bool reported = std::count(corner.begin(), corner.end(), Index(-1)) > 0;  // five to seven nodes
-      if (solid.part != part || reported) continue;
-      SkinCell& cell = member.cells.emplace_back(SkinCell{.id = solid.id});
-      for (std::size_t c = 0; c < corner.size(); ++c) {
+      const std::array<Index, 10> corner = solid.all_corners();
+      const int corners = solid.has_nodes_on_edges() ? 10 : 8;
+      const bool reported = std::count(corner.begin(), corner.begin() + corners, Index(-1)) > 0;
+      if (solid.part != part || reported) continue;  // five to seven, or nine nodes
+      SkinCell& cell = member.cells.emplace_back(SkinCell{.id = solid.id, .corners = corners});
+      for (std::size_t c = 0; c < static_cast<std::size_t>(corners); ++c) {
         const ModelNode& node = model_.nodes[static_cast<std::size_t>(corner[c])];
         nodes.insert(cell.node[c] = world_node_.at(node.id));
         note_spc(node, member);
@@ -335,12 +336,14 @@ class BodyBuilder {
   void add_solid_masses(const MatRigid& m, Index part, std::vector<SkinCell>& cells) {
     if (cells.empty()) return;
     for (SkinCell& cell : cells) {
-      Hexahedron x;
-      for (std::size_t c = 0; c < x.size(); ++c) x[c] = world_.nodes.x.vec(cell.node[c]);
       MassIntegrals sums;
-      add_solid(x, x, sums);
+      for (const std::array<Index, 8>& piece : cell.pieces()) {
+        Hexahedron x;
+        for (std::size_t c = 0; c < x.size(); ++c) x[c] = world_.nodes.x.vec(piece[c]);
+        add_solid(x, x, sums);
+      }
       cell.volume = sums.m;
-      const std::set<Index> different(cell.node.begin(), cell.node.end());
+      const std::set<Index> different(cell.node.begin(), cell.node.begin() + cell.corners);
       for (const Index n : different) world_.nodes.m[n] += m.ro * cell.volume / Real(different.size());
     }
     add_skin(world_, {part, m.E / (3 * (1 - 2 * m.pr))}, cells);

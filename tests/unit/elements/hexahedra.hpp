@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cell_shapes.hpp"
-#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/solid_loops.hpp"
 
 namespace courant::test {
 
@@ -23,9 +23,9 @@ struct Hexahedra {
   std::array<Numbers, 12> hourglass_force;
   Numbers V0, rho0, internal_energy, hourglass_energy, bulk_viscosity_energy, viscous_pressure, limit;
   Real lambda = 1, shear = 1;
-  HexahedronControl control;
-  HexahedronScratch scratch;
-  HexahedronLoops loops = hexahedron_loops();
+  SolidControl control;
+  SolidScratch scratch;
+  OnePointLoops loops = hexahedron_loops();
 
   std::size_t size() const { return V0.size(); }
   static Vec sign(int c) {
@@ -96,14 +96,14 @@ struct Hexahedra {
 
   /// A step that led to x with v; `body(begin, count)` looks at the scratch of each block.
   template <class Body>
-  HexahedronLoops::StableStep visit(Real dt, const Body& body) {
+  StableStep visit(Real dt, const Body& body) {
     std::array<Numbers, 3> px, pv;
     for (std::size_t n = 0; n < x.size(); ++n)
       for (int d = 0; d < 3; ++d) px[d].push_back(x[n][d]), pv[d].push_back(v[n][d]);
-    HexahedronMesh mesh;
+    SolidMesh mesh;
     for (int d = 0; d < 3; ++d) mesh.x[d] = px[d].data(), mesh.v[d] = pv[d].data();
     for (int c = 0; c < 8; ++c) mesh.corner[c] = corner[c].data();
-    HexahedronState state{};
+    SolidState state{};
     for (int k = 0; k < 6; ++k) state.stress[k] = stress[k].data();
     for (int k = 0; k < 24; ++k) state.corner_force[k] = corner_force[k].data();
     for (int k = 0; k < 12; ++k) state.hourglass_force[k] = hourglass_force[k].data();
@@ -111,10 +111,10 @@ struct Hexahedra {
     state.hourglass_energy = hourglass_energy.data();
     state.bulk_viscosity_energy = bulk_viscosity_energy.data();
     state.viscous_pressure = viscous_pressure.data();
-    HexahedronLoops::StableStep all{};
+    StableStep all{};
     const Index n = static_cast<Index>(size());
     for (Index begin = 0; begin < n; begin += block_size) {
-      const HexahedronLoops::Block block{begin, std::min(block_size, n - begin), dt};
+      const ElementBlock block{begin, std::min(block_size, n - begin), dt};
       loops.strain(block, mesh, control, state, scratch);
       law(block);
       loops.work(block, state, scratch);
@@ -132,11 +132,11 @@ struct Hexahedra {
   void each_block(Real dt, const Body& body) {
     visit(dt, body);
   }
-  HexahedronLoops::StableStep advance(Real dt) {
+  StableStep advance(Real dt) {
     return visit(dt, [](Index, Index) {});
   }
 
-  void law(const HexahedronLoops::Block& block) {
+  void law(const ElementBlock& block) {
     for (Index i = 0; i < block.count; ++i) {
       const auto& d = scratch.rate;
       const Real volumetric = lambda * block.dt * (d[0][i] + d[1][i] + d[2][i]);

@@ -1,5 +1,5 @@
 // The hexahedron with one point against geometry, patch tests, closed solutions and its own energies.
-#include "elements/solid/hexahedron_loops.hpp"
+#include "elements/solid/solid_loops.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,12 +20,12 @@ std::array<Vec, 8> brick_corners() {
   return out;
 }
 
-HexahedronControl elastic(Real nu) {
+SolidControl elastic(Real nu) {
   return {.E = young, .G = young / (2 * (1 + nu)), .plate_modulus = young / (1 - nu * nu), .nu = nu};
 }
 
 Real energy_between(const std::array<Vec, 8>& start, const std::array<Vec, 8>& now,
-                    const HexahedronControl& material) {
+                    const SolidControl& material) {
   return bending_energy(start, second_gradient(start, now), material);
 }
 

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,17 +20,31 @@ struct SolidDeck {
   std::vector<Vec> nodes;
   std::string elements, cards;
   CellShape cells = CellShape::hexahedron;  ///< not pyramids
+  /// Tetrahedra have ten nodes: straight edges, or the middles of edges before `shape` moves them.
+  bool ten_nodes = false, curved = false;
 
   /// A block from the origin; `shape` moves its nodes before they are written. Returns its first node.
   std::size_t block(const Vec& size, int nx, int ny, int nz, int part,
                     const std::function<Vec(const Vec&)>& shape = nullptr) {
     const std::size_t first = nodes.size() + 1;
+    std::vector<Vec> unmoved;
     for (int k = 0; k <= nz; ++k)
       for (int j = 0; j <= ny; ++j)
         for (int i = 0; i <= nx; ++i) {
           const Vec x(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz);
-          nodes.push_back(shape ? shape(x) : x);
+          nodes.push_back(shape ? shape(x) : x), unmoved.push_back(x);
         }
+    std::map<std::pair<Index, Index>, std::size_t> on_edge;
+    const auto middle = [&](Index a, Index b) {
+      const auto [known, is_new] = on_edge.try_emplace(std::minmax({a, b}), nodes.size() + 1);
+      if (!is_new) return known->second;
+      const auto of = [&](const std::vector<Vec>& list, std::size_t from, Index n) {
+        return list[static_cast<std::size_t>(n) - from];
+      };
+      const Vec straight = 0.5 * (of(nodes, 1, a) + of(nodes, 1, b));
+      nodes.push_back(curved ? shape(0.5 * (of(unmoved, first, a) + of(unmoved, first, b))) : straight);
+      return known->second;
+    };
     const auto n = [&](int i, int j, int k) {
       return static_cast<Index>(first) + i + (nx + 1) * (j + (ny + 1) * k);
     };
@@ -38,8 +54,17 @@ struct SolidDeck {
           for (const auto& c :
                split(cells, {n(i, j, k), n(i + 1, j, k), n(i + 1, j + 1, k), n(i, j + 1, k), n(i, j, k + 1),
                              n(i + 1, j, k + 1), n(i + 1, j + 1, k + 1), n(i, j + 1, k + 1)}))
-            elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", ++element_, part, c[0],
-                                    c[1], c[2], c[3], c[4], c[5], c[6], c[7]);
+            if (ten_nodes) {
+              const Index corner[4] = {c[0], c[1], c[2], c[4]};
+              elements += fmt::format("{:8}{:8}\n", ++element_, part);
+              for (const Index a : corner) elements += fmt::format("{:8}", a);
+              for (const auto& [a, b] : {std::array{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}})
+                elements += fmt::format("{:8}", middle(corner[a], corner[b]));
+              elements += "\n";
+            } else {
+              elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", ++element_, part, c[0],
+                                      c[1], c[2], c[3], c[4], c[5], c[6], c[7]);
+            }
     return first;
   }
   /// A *SET_NODE_LIST of those nodes for which `wanted` holds.
@@ -66,7 +91,7 @@ struct SolidDeck {
 inline void expect_no_force_inside(const ElementGroup& group, Index nodes, Real tolerance) {
   std::vector<Vec> force(static_cast<std::size_t>(nodes), Vec::Zero());
   for (Index e = 0; e < group.size(); ++e)
-    for (int c = 0; c < 8; ++c)
+    for (int c = 0; c < group.corners(); ++c)
       for (int k = 0; k < 3; ++k)
         force[static_cast<std::size_t>(group.node.data(c)[e])][k] += group.corner_force->data(3 * c + k)[e];
   for (int k = 1; k < 3; ++k)

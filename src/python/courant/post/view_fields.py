@@ -20,8 +20,10 @@ _SOLID_FACES: dict[int, tuple[tuple[int, ...], ...]] = {
     4: ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
     6: ((0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)),
     8: ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+    10: tuple(tri for a, b, c, ab, bc, ca in ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (2, 0, 3, 6, 7, 9))
+              for tri in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))),
 }
-_SOLID_TYPES = {10: 4, 12: 8, 13: 6}  # VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE
+_SOLID_TYPES = {10: 4, 12: 8, 13: 6, 24: 10}  # VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_QUADRATIC_TETRA
 
 
 class UnknownField(KeyError):
