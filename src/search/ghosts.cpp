@@ -171,7 +171,7 @@ void GhostParticles::build(World& world, Real support, Real skin) {
     if (plane.kind == GhostPlane::Kind::periodic)
       add(Motion{Matrix::Identity(), -mirror_[k].b}, [&](Real d) { return plane.period - d < reach; });
   }
-  make_room(world);
+  allocate(world);
   for_each_block(count(), [&](Index from, Index to) {  // positions are what ghosts are sorted by
     copy_block(p.x, true, from, to);
   });

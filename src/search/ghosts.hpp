@@ -63,8 +63,8 @@ class Ghosts : public Exchanger {
   virtual Real largest_move(const World& /*world*/) const { return 0; }
 
  protected:
-  /// Room in the fields for these ghosts and those before them.
-  void make_room(World& world) const {
+  /// Makes the fields long enough for these ghosts and those before them.
+  void allocate(World& world) const {
     world.particles.fields.make_room_for_ghosts(first_ - world.particles.size() + count());
   }
 

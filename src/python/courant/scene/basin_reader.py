@@ -265,7 +265,7 @@ class BasinReader(ShapeReader):
         else:  # mirrors of many faces take most of the time of a run
             shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
             basin.method = "mixed" if shaped else "mirrors"
-            basin.thin = f"'{thin[0].shape.name}' is thin, so that ghost particles have no room behind it; "
+            basin.thin = f"'{thin[0].shape.name}' is thin, so that ghost particles have no space behind it; "
         if node is not None:
             if asked not in (*METHODS, "auto"):
                 self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")

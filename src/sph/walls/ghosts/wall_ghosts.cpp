@@ -163,7 +163,7 @@ void WallGhosts::build(World& world, Real support, Real skin) {
       if ((x.array() >= low.array()).all() && (x.array() <= high.array()).all()) found.push_back(k);
     }
   });
-  make_room(world);
+  allocate(world);
   set_positions(world, built_);
 }
 
