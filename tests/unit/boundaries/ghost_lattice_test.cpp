@@ -146,6 +146,19 @@ TEST(GhostLattice, FillsABodyInTheWaterAndNothingBesideIt) {
   }
 }
 
+// Over its rim, which is above the water, points are wet as air is: they are not before the shells below.
+TEST(GhostLattice, KeepsAnOpenHullDry) {
+  auto lines = open_tank();
+  lines.insert(lines.end(),
+               {{at(0.3, 0.2), at(0.7, 0.2)}, {at(0.7, 0.2), at(0.7, 0.9)}, {at(0.3, 0.9), at(0.3, 0.2)}});
+  const std::vector<std::pair<Vec, Vec>> water{
+      {at(0, 0), at(1, 0.2)}, {at(0, 0.2), at(0.3, 0.5)}, {at(0.7, 0.2), at(1, 0.5)}};
+  const LaidGhosts laid = Tank(lines, water).move({3, 4, 5}).lay();
+  EXPECT_TRUE(laid.wet_on_both_sides.empty());
+  EXPECT_TRUE(laid.dry.empty());
+  EXPECT_EQ(within(laid, at(0.3, 0.2), at(0.7, 0.9)), 4 * 7);
+}
+
 TEST(GhostLattice, WarnsOfABodyThatIsThinnerThanHalfOfTheReach) {
   auto lines = open_tank();
   lines.insert(lines.end(), {{at(0.5, 0.2), at(0.6, 0.2)},
