@@ -30,10 +30,7 @@ class CompressionTension : public StrengthLaw {
     law_.lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), law_.G = E / (2 * (1 + nu));
     ro = density;
   }
-  void depend_on(YieldRate rate, const CowperSymonds& term) {
-    law_.rate = rate, rate_term_ = term;
-    law_.steep = rate == YieldRate::of_plastic_strain && term.counts();
-  }
+  void depend_on(YieldRate rate, const CowperSymonds& term) { law_.rate = rate, rate_term_ = term; }
   Real bulk_modulus() const override { return law_.lambda + 2 * law_.G / 3; }
   Real shear_modulus() const override { return law_.G; }
   std::vector<HistoryVariable> history() const override { return {{"plastic_strain", "-"}}; }
@@ -119,10 +116,7 @@ struct MatPlasticityCompressionTension : MatPlasticityCompressionTensionFields {
     auto out = std::make_shared<CompressionTension>(ro, E, pr, side(model, lcidc, lcsrc),
                                                     side(model, lcidt, lcsrt), pc, pt);
     if (depends_on_rate())
-      out->depend_on(srflag == 2   ? YieldRate::of_plastic_strain
-                     : srflag == 1 ? YieldRate::of_deviator
-                                   : YieldRate::of_strain,
-                     {c, c > 0 ? p : 1});
+      out->depend_on(srflag == 0 ? YieldRate::of_flow_and_volume : YieldRate::of_flow, {c, c > 0 ? p : 1});
     if (fail > 0 && fail < never_fails) out->fails_at = fail;
     out->shortest_step = tdel;
     return out;
