@@ -9,6 +9,9 @@
 #include "state/reports.hpp"
 
 using namespace courant;
+
+namespace quadratic_tetrahedra_test {
+
 using test::CellShape;
 using test::do_nothing;
 using test::expect_same_bits;
@@ -428,3 +431,5 @@ TEST(QuadraticTetrahedra, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
     expect_same_bits(deck.text(1), 150, 25);
   }
 }
+
+}  // namespace quadratic_tetrahedra_test
