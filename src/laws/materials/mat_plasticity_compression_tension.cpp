@@ -189,8 +189,8 @@ void CT::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) c
 
 // By hand. E = 2.5, PR = 1/4: lambda = G = 1, 3 G = 3, K = 5/3. dev e = (2, -1, -1), no change of volume: q =
 // 6. Yield stress 4 in compression, 2 in tension; PC = 1, PT = 3. Mean stress 0: share of tension 1/4, 3.5:
-// de = 5/6. Mean 5: 2, de = 4/3. Mean -5: 4, de = 2/3. LCSRT 2 at a rate of 4 (dt = 1/2), SRFLAG 1: 4 in
-// tension.
+// de = 5/6. Mean 5: 2, de = 4/3. Mean -5: 4, de = 2/3. LCSRT 1 + rate/4, SRFLAG 1, dt = 1/2: 6 - 3 de = 2
+// (1 + de/2), de = 1.
 const std::string iron_curves =
     "*DEFINE_CURVE\n1\n0.0,4.0\n1.0,4.0\n*DEFINE_CURVE\n2\n0.0,2.0\n1.0,2.0\n*DEFINE_CURVE\n3\n0.0,1.0\n"
     "8.0,3.0\n";
@@ -205,8 +205,7 @@ const RegisterStrength<CT> mat_plasticity_compression_tension{
     "law",
     "J2 plasticity with radial return: Krieg & Key 1976; rates: Cowper & Symonds 1957",
     {iron_flows("1,2.0,2.5,0.25\n1,2\n", 0, 3.5, 2.5 / 3), iron_flows("1,2.0,2.5,0.25\n1,2\n", 5, 2, 4.0 / 3),
-     iron_flows("1,2.0,2.5,0.25\n1,2\n", -5, 4, 2.0 / 3),
-     iron_flows("1,2.0,2.5,0.25\n1,2,0,3,1\n", 5, 4, 2.0 / 3)},
+     iron_flows("1,2.0,2.5,0.25\n1,2\n", -5, 4, 2.0 / 3), iron_flows("1,2.0,2.5,0.25\n1,2,0,3,1\n", 5, 3, 1)},
     mat_plasticity_compression_tension_table()};
 
 }  // namespace

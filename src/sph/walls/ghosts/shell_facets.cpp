@@ -62,8 +62,7 @@ class FacetBuilder {
 
  private:
   void add(const WallFacet& f) {
-    const Real margin = -facet_tolerance * to_.spacing;
-    if (!std::all_of(f.x.begin(), f.x.end(), [&](const Vec& x) { return is_beyond(to_.planes, x, margin); }))
+    if (!are_beyond(to_.planes, {f.x[0], f.x[1], f.x[2]}, -facet_tolerance * to_.spacing))
       facets_.push_back(f);
   }
 
@@ -83,9 +82,15 @@ std::vector<WallFacet> facets_of_shells(const World& world, const std::vector<In
 }
 
 bool is_beyond(const std::vector<GhostPlane>& planes, const Vec& x, Real margin) {
+  return are_beyond(planes, {x}, margin);
+}
+
+bool are_beyond(const std::vector<GhostPlane>& planes, const std::vector<Vec>& points, Real margin) {
+  const auto all = [&](const auto& is) { return std::all_of(points.begin(), points.end(), is); };
   return std::any_of(planes.begin(), planes.end(), [&](const GhostPlane& plane) {
-    const Real d = depth(plane, x);
-    return d < -margin || (plane.kind == GhostPlane::Kind::periodic && d > plane.period + margin);
+    if (all([&](const Vec& x) { return depth(plane, x) < -margin; })) return true;
+    return plane.kind == GhostPlane::Kind::periodic &&
+           all([&](const Vec& x) { return depth(plane, x) > plane.period + margin; });
   });
 }
 
@@ -97,18 +102,20 @@ std::map<Index, bool> closed_parts(const std::vector<WallFacet>& facets, const G
     for (std::size_t k = 0; k < 3; ++k) c[k] = std::llround(x[static_cast<Index>(k)] / (0.01 * dx));
     return c;
   };
-  const auto on_plane = [&](const Vec& x) { return is_beyond(lattice.planes, x, -facet_tolerance * dx); };
+  const auto on_plane = [&](const std::vector<Vec>& x) {
+    return are_beyond(lattice.planes, x, -facet_tolerance * dx);
+  };
   std::map<Index, std::map<std::pair<Corner, Corner>, int>> edges;
   for (const WallFacet& f : facets) {
     if (f.copy_of >= 0) continue;
     auto& of = edges[f.part];
     if (f.is_line) {
       for (const Vec& x : {f.x[0], f.x[1]})
-        if (!on_plane(x)) ++of[{corner(x), corner(x)}];
+        if (!on_plane({x})) ++of[{corner(x), corner(x)}];
       continue;
     }
     for (std::size_t e = 0; e < 3; ++e) {
-      if (on_plane(f.x[e]) && on_plane(f.x[(e + 1) % 3])) continue;
+      if (on_plane({f.x[e], f.x[(e + 1) % 3]})) continue;
       const Corner a = corner(f.x[e]), b = corner(f.x[(e + 1) % 3]);
       ++of[{std::min(a, b), std::max(a, b)}];
     }

@@ -18,5 +18,7 @@ std::vector<WallFacet> facets_of_shells(const World& world, const std::vector<In
 std::map<Index, bool> closed_parts(const std::vector<WallFacet>& facets, const GhostLattice& lattice);
 /// Whether x is more than `margin` [L] beyond a plane.
 bool is_beyond(const std::vector<GhostPlane>& planes, const Vec& x, Real margin);
+/// Whether all of these points are so beyond the same plane.
+bool are_beyond(const std::vector<GhostPlane>& planes, const std::vector<Vec>& points, Real margin);
 
 }  // namespace courant
