@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import courant
 import pytest
 from courant.diagnostics import Diagnostics
 from courant.scene.command import read_model, write_deck
@@ -150,6 +151,32 @@ def test_water_in_a_box_needs_no_cards(tmp_path: Path) -> None:
     assert "11 walls: 30 shells" in out.deck  # floor of 1 and wall of 0.5 in shells of half a spacing
     assert out.has_fields("1", "0", "1440000")  # 20 sqrt(2 * 10 * 0.2) = 40
     assert "*LOAD_BODY_Y" in out.deck
+
+
+WALLS = {
+    "a box of the plane": ("2", "", "mirrors"),
+    "a block along the axes": ("2", "  - {box: {low: [0.6, 0.1], high: [0.9, 0.4]}}\n", "mirrors"),
+    "a closed slope": ("2", "  - {line: [[0.6, 0], [1, 0], [1, 0.4], [0.6, 0]]}\n", "ghosts"),
+    "an oblique plate": ("2", "  - {line: [[0.6, 0.1], [0.9, 0.4]]}\n", "mirrors"),
+    "a thin closed slope": ("2", "  - {line: [[0.6, 0.1], [0.9, 0.4], [0.91, 0.39], [0.61, 0.09], [0.6, 0.1]]}\n", "mirrors"),
+    "a box in space": ("3", "", "ghosts"),
+    "a block in space": ("3", "  - {box: {low: [0.6, 0.1, 0], high: [0.9, 0.4, 0.3]}}\n", "ghosts"),
+    "a plate in space": ("3", "  - {box: {low: [0.6, 0.1, 0], high: [0.65, 0.4, 0.3]}}\n", "mixed"),
+}
+
+
+@pytest.mark.parametrize("name", WALLS)
+def test_walls_have_ghosts_where_these_have_space(name: str, tmp_path: Path) -> None:
+    dim, walls, expected = WALLS[name]
+    two = dim == "2"
+    low, high, far = ("[0, 0]", "[0.4, 0.3]", "[1, 0.5]") if two else ("[0, 0, 0]", "[0.4, 0.5, 0.3]", "[1, 0.5, 0.5]")
+    file = tmp_path / "scene.yaml"
+    file.write_text(f"water: {{spacing: 0.025, blocks: [{{low: {low}, high: {high}}}]}}\nbox: {{low: {low}, high: {far}}}\n"
+                    + (f"walls:\n{walls}" if walls else "") + "end: 1\n")
+    text = courant.Scene.from_yaml(file).deck()
+    method = {"ghosts": "(METHOD 2)", "mirrors": "(METHOD 1)", "mixed": "(METHOD 1)"}[expected]
+    assert method in text
+    assert ("is thin" in courant.Scene.from_yaml(file).explain()) == ("thin" in name or "plate" in name)
 
 
 @pytest.mark.parametrize(("method", "mirrors"), [("", True), ("wall_method: auto\n", True), ("wall_method: contact\n", False)])

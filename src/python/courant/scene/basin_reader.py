@@ -260,15 +260,22 @@ class BasinReader(ShapeReader):
             basin.method = asked
         elif basin.dim == 2 and not any(solid.is_oblique() or len(solid.shape.faces) > MOST_MIRRORS for solid in basin.solids):
             basin.method = "mirrors"  # right behind walls along the axes, and calm where water strikes them
+        elif basin.inlets:  # ghosts are behind walls of the water that is there at the start
+            self.take_mirrors(basin)
         elif not (thin := [solid for solid in basin.solids if solid.piston is None and not solid.is_thick(REACH * basin.spacing) and not self._holds_all(solid, basin)]):
             basin.method = "ghosts"
-        else:  # mirrors of many faces take most of the time of a run
-            shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
-            basin.method = "mixed" if shaped else "mirrors"
+        else:
+            self.take_mirrors(basin)
             basin.thin = f"'{thin[0].shape.name}' is thin, so that ghost particles have no space behind it; "
         if node is not None:
             if asked not in (*METHODS, "auto"):
                 self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")
+
+    @staticmethod
+    def take_mirrors(basin: Basin) -> None:
+        """But where they have many faces and take most of the time of a run."""
+        shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
+        basin.method = "mixed" if shaped else "mirrors"
 
     @staticmethod
     def _holds_all(solid: Solid, basin: Basin) -> bool:
