@@ -58,6 +58,7 @@ void Contact::for_each_reaction(const Incidence& of, Index at, const Add& add) c
   note_access(reactions_resource_);
   const Reactions& r = reactions_;
   if (r.all.empty()) return;
+  if (at + 1 >= static_cast<Index>(of.first.size())) return;  // it came with a later contact
   for (Index k = of.first[at]; k < of.first[at + 1]; ++k) {
     const auto [moving, corner] = of.corners[k];
     for (Index s = r.first[moving]; s < r.first[moving + 1]; ++s) add(r.all[r.order[s]], corner);

@@ -103,12 +103,12 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
       const Pack r2 = dot_plus(d, d, tiny);
       if (!any_less(r2, reach)) continue;
       const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv;
-      const Pack w = a.V[j] * kernel.shape(R);
+      const Pack shape = kernel.shape(R), w = a.V[j] * shape;
       Pack height = carried.x * d.x + carried.y * d.y;
       if constexpr (Dim == 3) height += carried.z * d.z;
       weight += w;
       mean += a.p[j] * w;
-      rise += a.rho[j] * w * height;
+      rise += a.m[j] * shape * height;
       const Pack gradient = a.V[j] * gradient_shape(kernel, R, rinv);
       slope.add(gradient, d);
       push.add(a.p[j] * gradient, d);

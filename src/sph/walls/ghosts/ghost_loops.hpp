@@ -12,7 +12,8 @@ struct GhostArrays {
   const Real* v[3];
   const Real* V;    ///< m/rho, see PairVolumes
   const Real* p;    ///< pressure as pair forces take it
-  const Real* rho;  ///< of particles and their copies alone
+  const Real* m;    ///< of particles and their copies
+  const Real* rho;  ///< of particles alone
   const Real* tau[6];
   Real* drhodt;  ///< of particles alone
   Real h;

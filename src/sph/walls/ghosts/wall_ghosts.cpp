@@ -273,7 +273,7 @@ GhostArrays WallGhosts::arrays(World& world) {
   Particles& p = world.particles;
   GhostArrays a{};
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
-  a.V = volumes_->current(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
+  a.V = volumes_->current(), a.m = p.m.data(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
   a.h = h_, a.half_step = half_step_, a.kernel = &any_kernel(kernel_), a.first = first();
   a.squeeze = squeeze_.data(), a.volume_rate = volume_rate_.data();
   return a;
@@ -446,7 +446,6 @@ class WallGhostForce : public Force {
   void declare(const World& world, Accesses& a) const override {
     const Segments& s = world.segments;
     a.reads(ghosts_->pressure(), Reach::others);
-    if (ghosts_->has_copies()) a.reads(world.particles.rho, Reach::others);  // of copies of particles
     a.in_start().updates(*s.contact_force).updates(world.nodes.f);
     a.reads(s.node0).reads(s.node1).reads(s.node2).reads(s.node3);
     a.in_finish().updates(*s.contact_force).updates(world.nodes.f).reads(world.nodes.x);

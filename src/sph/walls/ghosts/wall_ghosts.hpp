@@ -77,7 +77,6 @@ class WallGhosts : public Ghosts,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
-  bool has_copies() const { return copies_ != nullptr; }
   bool any_moves() const { return frames_.size() > 1; }
   /// Pressure of particles as pair forces take it.
   const Field<Real>& pressure() const { return pressure_; }
