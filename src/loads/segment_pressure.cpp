@@ -54,19 +54,23 @@ struct BlastOnFace {
 };
 
 /// The integral of N n dA of a node of a triangle of six nodes, corners first, then those on edges 12, 23,
-/// 31: three points, exact where it is flat. [L2]
+/// 31: six points, exact for polynomials of degree 4 (Dunavant 1985), as N n dA is. So one pressure on all of a
+/// closed surface has no moment. [L2]
 Vec area_of_node(const std::array<Vec, 6>& x, std::size_t node) {
+  constexpr Real beside[2]{0.445948490915965, 0.091576213509771},  // two coordinates of a point
+      weight[2]{0.223381589678011, 0.109951743655322};
   Vec out = Vec::Zero();
-  for (std::size_t point = 0; point < 3; ++point) {
-    std::array<Real, 3> L{1.0 / 6, 1.0 / 6, 1.0 / 6};
-    L[point] = 2.0 / 3;
+  for (std::size_t point = 0; point < 6; ++point) {
+    const std::size_t kind = point / 3;
+    std::array<Real, 3> L{beside[kind], beside[kind], beside[kind]};
+    L[point % 3] = 1 - 2 * beside[kind];
     std::array<Vec, 3> slope;  // by L1, L2, L3, as if they were independent
     for (std::size_t a = 0; a < 3; ++a) {
       const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;  // edge 3 + a joins a and b, 3 + c joins c and a
       slope[a] = (4 * L[a] - 1) * x[a] + 4 * L[b] * x[3 + a] + 4 * L[c] * x[3 + c];
     }
     const Real N = node < 3 ? L[node] * (2 * L[node] - 1) : 4 * L[node - 3] * L[(node - 2) % 3];
-    out += N / 6 * (slope[1] - slope[0]).cross(slope[2] - slope[0]);
+    out += 0.5 * weight[kind] * N * (slope[1] - slope[0]).cross(slope[2] - slope[0]);
   }
   return out;
 }

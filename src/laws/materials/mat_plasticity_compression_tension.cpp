@@ -71,9 +71,12 @@ class CompressionTension : public StrengthLaw {
  private:
   /// Sum of the stresses in the plane over that of the strains: E/(1 - nu). [M/LT2]
   Real plane_sum() const { return 2 * law_.G * (3 * law_.lambda + 2 * law_.G) / (law_.lambda + 2 * law_.G); }
+  /// Where PC and PT are 0 it jumps, and round-off of a mean stress of 0 would choose the curve: so it goes
+  /// over a millionth of Young's modulus at least.
   Real share(Real mean) const {
-    if (mean >= pt_) return 1;
-    return mean <= -pc_ ? 0 : (mean + pc_) / (pt_ + pc_);
+    const Real E = law_.G * (3 * law_.lambda + 2 * law_.G) / (law_.lambda + law_.G);
+    const Real half = 0.5 * std::max(pt_ + pc_, 1e-6 * E), middle = 0.5 * (pt_ - pc_);
+    return std::clamp((mean - middle + half) / (2 * half), Real(0), Real(1));
   }
   void at(YieldPoints& points, const Real* tension) const {
     for (Index i = 0; i < points.count; ++i) {
