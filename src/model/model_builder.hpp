@@ -44,6 +44,7 @@ class ModelBuilder {
   void check_shared_nodes_of_solids(const std::vector<Index>& owner, std::vector<bool>& told);
   void check_solids();
   void check_solid_shapes();
+  void warn_of_loose_edges();
   Real least_volume(const ModelSolid& solid) const;
   Real volume(const ModelSolid& solid) const;
   void check_control_solid(const ControlSolid& card);

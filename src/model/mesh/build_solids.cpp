@@ -83,7 +83,58 @@ void ModelBuilder::add_to_part(const ElementSolidCard& card, const ModelSolid& s
 /// Once nodes are where the run starts.
 void ModelBuilder::check_solids() {
   check_solid_shapes();
+  if (errors_ == 0) warn_of_loose_edges();
   if (const auto* control = deck_.last<ControlSolid>()) check_control_solid(*control);
+}
+
+/// Edges between two corners that solids share, with a node on it in one of them alone.
+void ModelBuilder::warn_of_loose_edges() {
+  using Edge = std::pair<Index, Index>;
+  const auto edge = [](Index a, Index b) { return Edge(std::min(a, b), std::max(a, b)); };
+  constexpr std::size_t of_tetrahedron[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+  constexpr std::size_t of_hexahedron[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  struct Middle {
+    Index node = -1;
+    std::size_t solid = 0;
+    bool loose = false;
+  };
+  std::map<Edge, Middle> middles;
+  Index count = 0;
+  const Middle* first = nullptr;
+  std::size_t other = 0;
+  const auto note = [&](Middle& middle, std::size_t solid) {
+    if (middle.loose) return;
+    middle.loose = true;
+    if (count++ == 0) first = &middle, other = solid;
+  };
+  for (std::size_t k = 0; k < model_.solids.size(); ++k) {
+    const ModelSolid& solid = model_.solids[k];
+    for (std::size_t e = 0; solid.has_nodes_on_edges() && e < 6; ++e) {
+      const auto& [a, b] = of_tetrahedron[e];
+      const auto [known, is_new] =
+          middles.try_emplace(edge(solid.node[a], solid.node[b]), Middle{solid.node[4 + e], k});
+      if (!is_new && known->second.node != solid.node[4 + e]) note(known->second, k);
+    }
+  }
+  for (std::size_t k = 0; !middles.empty() && k < model_.solids.size(); ++k) {
+    if (model_.solids[k].has_nodes_on_edges()) continue;
+    const auto corner = model_.solids[k].corners();
+    for (const auto& [a, b] : of_hexahedron)
+      if (const auto found = middles.find(edge(corner[a], corner[b]));
+          corner[a] != corner[b] && found != middles.end())
+        note(found->second, k);
+  }
+  if (count == 0) return;
+  diagnostics_.warning(
+      deck_.where(*solid_cards_[first->solid]),
+      fmt::format(
+          "{} edge{} of tetrahedra of ten nodes {} a node that other solids with the same two corners do not "
+          "have, first node {} of element {} beside element {}: there the mesh opens",
+          count, count > 1 ? "s" : "", count > 1 ? "have" : "has",
+          model_.nodes[static_cast<std::size_t>(first->node)].id, model_.solids[first->solid].id,
+          model_.solids[other].id),
+      "mesh all of it with nodes on edges, or let the parts share no nodes and tie them by *CONTACT_TIED");
 }
 
 void ModelBuilder::check_solid_shapes() {
