@@ -432,4 +432,28 @@ TEST(QuadraticTetrahedra, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   }
 }
 
+// One pressure on all of a closed surface, of curved faces, has neither a force nor a moment.
+TEST(QuadraticTetrahedra, OfCurvedFacesAreNotTurnedByAPressure) {
+  const std::string deck =
+      "*KEYWORD\n*CONTROL_TERMINATION\n0.3\n*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,16\n*MAT_ELASTIC\n"
+      "1,1e-3,1000,0.3\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,0.52,0.05,-0.03\n6,0.56,0.5,0.04\n"
+      "7,-0.03,0.5,0.02\n8,0,0.04,0.5\n9,0.5,0,0.5\n10,0.03,0.5,0.48\n*ELEMENT_SOLID\n1,1\n"
+      "1,2,3,4,5,6,7,8,9,10\n*LOAD_SEGMENT\n1,1,0,1,3,2,2\n1,1,0,1,2,4,4\n1,1,0,2,3,4,4\n1,1,0,3,1,4,4\n"
+      "*DEFINE_CURVE\n1\n0,0\n0.3,10\n1,10\n*END\n";
+  auto s = simulation_of(deck);
+  while (s->clock().t < 0.3) s->step(do_nothing);
+  const Nodes& nodes = s->world().nodes;
+  Vec P = Vec::Zero(), L = P;
+  Real speeds = 0, turns = 0;
+  for (Index n = 0; n < nodes.size(); ++n) {
+    const Vec mv = nodes.m[n] * nodes.v.vec(n);
+    P += mv, L += nodes.x.vec(n).cross(mv);
+    speeds += mv.norm(), turns += nodes.x.vec(n).norm() * mv.norm();
+  }
+  std::printf("momentum %.1e, spin %.1e\n", P.norm() / speeds, L.norm() / turns);
+  EXPECT_GT(speeds, 0);
+  EXPECT_LT(P.norm(), 1e-9 * speeds);
+  EXPECT_LT(L.norm(), 1e-9 * turns);
+}
+
 }  // namespace quadratic_tetrahedra_test
