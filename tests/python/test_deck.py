@@ -126,6 +126,49 @@ def test_keywords_are_added_and_taken_out(tmp_path: Path) -> None:
         plate.add("0.001")
 
 
+def test_keywords_with_the_same_cards_are_not_the_same(tmp_path: Path) -> None:
+    some = deck(tmp_path, """*KEYWORD
+*DATABASE_GLSTAT
+0.001
+*DATABASE_MATSUM
+0.002
+*LOAD_BODY_X
+         1      9.81
+*LOAD_BODY_Z
+         1      1.62
+*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID
+         1 all
+         0         0
+*CONTACT_AUTOMATIC_GENERAL
+         0         0
+*MAT_010
+         1
+*MAT_ELASTIC_PLASTIC_HYDRO_SPALL
+         2
+*MAT_ELASTIC
+         3
+*MAT_ELASTIC_TITLE
+elastic
+         4
+*SET_NODE
+         5
+*CONTROL_TIME_STEP
+         0
+*END
+""")
+    names = [block.name for block in some]
+    assert "LOAD_BODY_Y" not in some and some["LOAD_BODY_Z"]["SF"] == 1.62
+    some["LOAD_BODY_X"]["SF"] = 55
+    assert some["LOAD_BODY_Z"]["SF"] == 1.62 and some["LOAD_BODY_X"]["SF"] == 55
+    assert [some.remove(name) for name in ("DATABASE_GLSTAT", "LOAD_BODY_X", "CONTACT_AUTOMATIC_SINGLE_SURFACE", "MAT_ELASTIC_PLASTIC_HYDRO")] == [1] * 4
+    assert [block.name for block in some] == [name for name in names if name not in ("DATABASE_GLSTAT", "LOAD_BODY_X", "CONTACT_AUTOMATIC_SINGLE_SURFACE_ID", "MAT_010")]
+    assert some["MAT_010_SPALL"]["MID"] == 2 and "CONTACT_SINGLE_SURFACE" not in some
+    assert [block["MID"] for block in some["MAT_001"]] == [3, 4] and some["MAT_001_TITLE"]["MID"] == 4
+    assert "SET_NODE_LIST" in some and "SET_NODE_LIST_GENERATE" not in some and "CONTROL_TIMESTEP" in some
+    with pytest.raises(courant.CourantError, match="no \\*LOAD_BODY_X\n  hint: did you mean LOAD_BODY_Z"):
+        some["LOAD_BODY_X"]
+
+
 @pytest.mark.parametrize(("change", "message"), [
     (lambda one: one["MAT_ELASTC"], r"no \*MAT_ELASTC\n  hint: did you mean MAT_ELASTIC"),
     (lambda one: one["MAT_ELASTIC"]["EE"], r"plate.k:21: error: \*MAT_ELASTIC_TITLE: it has no field 'EE'\n  hint: did you mean E\?"),

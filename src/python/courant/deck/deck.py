@@ -22,7 +22,7 @@ from ..words import did_you_mean
 from .blocks import Block, CardSet, Value
 from .mesh import Elements, curves_of, elements_of, nodes_of, sets_of, write_points
 from .parameters import Parameters
-from .tables import same_keyword
+from .tables import same_keyword, without_options
 
 _LONG = re.compile(r"long\s*=\s*(\w)", re.IGNORECASE)
 _I10 = re.compile(r"i10\s*=\s*y", re.IGNORECASE)
@@ -107,13 +107,14 @@ class Deck:
         return bool(self._of(keyword))
 
     def _of(self, keyword: str) -> list[Block]:
-        wanted = {name.removesuffix("_TITLE") for name in same_keyword(keyword.lstrip("*").upper())}
-        wanted.add(keyword.lstrip("*").upper())
-        known = [block for block in self.blocks if block.name in wanted]
-        return known or [block for block in self.blocks if block.table and wanted & set(block.table.names)]
+        name = keyword.lstrip("*").upper()
+        wanted, options = same_keyword(name), set(without_options(name)[1])
+        named = [(block, *without_options(block.name)) for block in self.blocks]
+        return [block for block, base, own in named if base in wanted and options <= set(own)]
 
     def __getitem__(self, keyword: str) -> Found:
-        """All blocks of a keyword, by any of its names (MAT_024 is MAT_PIECEWISE_LINEAR_PLASTICITY), also with _TITLE or _ID. Raises CourantError."""
+        """All blocks of a keyword, by any of its names (MAT_024 is MAT_PIECEWISE_LINEAR_PLASTICITY), also with _TITLE or _ID; of a name with such an option
+        only those that have it. Raises CourantError."""
         found = self._of(keyword)
         if not found:
             names = sorted({block.name.removesuffix("_TITLE").removesuffix("_ID") for block in self.blocks})
