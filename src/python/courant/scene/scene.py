@@ -268,7 +268,7 @@ class Scene:
         """A picture of the first state, before the run: courant.preview has the arguments."""
         import tempfile
 
-        from ..preview import preview
+        from ..previewing import preview
 
         with tempfile.TemporaryDirectory(prefix="courant_") as folder:
             return preview(self.write(Path(folder, "scene.k")), file, field, **keys)
