@@ -4,6 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import courant
+import numpy as np
 import pytest
 from courant.diagnostics import Diagnostics
 from courant.scene.command import read_model, write_deck
@@ -177,6 +178,27 @@ def test_walls_have_ghosts_where_these_have_space(name: str, tmp_path: Path) -> 
     method = {"ghosts": "(METHOD 2)", "mirrors": "(METHOD 1)", "mixed": "(METHOD 1)"}[expected]
     assert method in text
     assert ("is thin" in courant.Scene.from_yaml(file).explain()) == ("thin" in name or "plate" in name)
+
+
+@pytest.mark.parametrize("slope", [2, 5, 10])
+@pytest.mark.parametrize("dim", [2, 3])
+def test_what_is_on_the_floor_of_the_box_is_not_thin(slope: int, dim: int) -> None:
+    """A beach, whose dry side water cannot reach: as a line and as a surface; above the floor it is thin at its edge."""
+    h = 0.25
+    end = 1 + slope * h
+
+    def deck(above: float) -> str:
+        scene = courant.Scene("beach", spacing=h / 10, end=0.1)
+        scene.water(low=(0, 0, 0)[:dim], high=(1, 0.3, h) if dim == 3 else (1, h))
+        scene.box(low=(0, -above) if dim == 2 else (0, 0, -above), high=(end, 2) if dim == 2 else (end, 0.3, 2), open=["top"])
+        if dim == 2:
+            scene.wall(line=[[1, 0], [end, h], [end, 0], [1, 0]])
+        else:
+            points = np.array([(1, 0, 0), (end, 0, h), (end, 0.3, h), (1, 0.3, 0), (end, 0, 0), (end, 0.3, 0)])
+            scene.wall((points, np.array([(0, 1, 2), (0, 2, 3), (0, 4, 1), (3, 2, 5), (1, 4, 5), (1, 5, 2), (0, 3, 5), (0, 5, 4)])))
+        return scene.deck()
+
+    assert "(METHOD 2)" in deck(0) and "(METHOD 2)" not in deck(4 * h)
 
 
 @pytest.mark.parametrize(("method", "mirrors"), [("", True), ("wall_method: auto\n", True), ("wall_method: contact\n", False)])

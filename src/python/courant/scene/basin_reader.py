@@ -262,7 +262,7 @@ class BasinReader(ShapeReader):
             basin.method = "mirrors"  # right behind walls along the axes, and calm where water strikes them
         elif basin.inlets:  # ghosts are behind walls of the water that is there at the start
             self.take_mirrors(basin)
-        elif not (thin := [solid for solid in basin.solids if solid.piston is None and not solid.is_thick(REACH * basin.spacing) and not self._holds_all(solid, basin)]):
+        elif not (thin := [solid for solid in basin.solids if solid.piston is None and not self._is_thick(solid, basin) and not self._holds_all(solid, basin)]):
             basin.method = "ghosts"
         else:
             self.take_mirrors(basin)
@@ -276,6 +276,16 @@ class BasinReader(ShapeReader):
         """But where they have many faces and take most of the time of a run."""
         shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
         basin.method = "mixed" if shaped else "mirrors"
+
+    @staticmethod
+    def _is_thick(solid: Solid, basin: Basin) -> bool:
+        """Where a held solid is on the floor or at a wall of the box, or on another that is held, there is no water: neither in front nor behind."""
+        others = [one for one in basin.solids if one is not solid and one.is_still and (one.closed or one.shape.ground)]
+
+        def dry(x: np.ndarray) -> np.ndarray:
+            return np.any([basin.is_outside(x), *(one.shape.contains(x) for one in others)], axis=0)  # type: ignore[no-any-return]
+
+        return solid.is_thick(REACH * basin.spacing, dry if solid.is_still else None)
 
     @staticmethod
     def _holds_all(solid: Solid, basin: Basin) -> bool:
