@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,14 +10,14 @@ from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
 from .joints import joined_names
-from .model import MOST_ENTITIES, Lattice, Model, Near
+from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface
 from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
 from .structure_reader import read_structures
-from .water_checks import check_overlaps, check_piston
+from .water_checks import check_overlaps, check_piston, positions
 from .wave_reader import Piston, check_reach, read_waves
 
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
@@ -182,7 +183,7 @@ class BasinReader(ShapeReader):
                     continue
                 shape.mesh = 2 * basin.spacing
                 self.add_entities(entry, len(shape.faces))
-                solid = Solid(shape, closed=self._is_closed(shape), where=self.at(entry))
+                solid = Solid(shape, closed=self._is_closed(shape) and not self.flag(entry, "open", False), where=self.at(entry))
                 if key == "walls":
                     before = len(self.pistons)
                     solid.motion = self.read_motion(entry, basin)
@@ -213,21 +214,33 @@ class BasinReader(ShapeReader):
 
     def check_solids(self, basin: Basin) -> None:
         """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""
-        names = ("left", "right", "bottom", "top") if basin.dim == 2 else ("left", "right", "front", "back", "bottom", "top")
-        water = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
         for solid in basin.solids:
             low, high = np.array(solid.shape.low, float)[:basin.dim], np.array(solid.shape.high, float)[:basin.dim]
             name = solid.shape.name or "a solid"
-            if solid.closed and water and all((low <= a[:basin.dim]).all() and (high >= b[:basin.dim]).all() for a, b in water):
+            if solid.closed and self._covers(solid.shape, basin):
                 size = " x ".join(f"{length:g}" for length in high - low)
-                self.diagnostics.error(solid.where, f"'{name}', {size}, covers all the water", "is its file in millimetres? 'scale: 0.001' makes metres of them")
+                self.diagnostics.error(solid.where, f"'{name}', {size}, is solid and covers all the water", "of a tank, 'open: true' takes the surface alone; "
+                                       "is it a file in millimetres? 'scale: 0.001' makes metres of them")
             for k in range(basin.dim if solid.free and basin.box else 0):
                 ends = basin.box[0][k], basin.box[1][k]  # type: ignore[index]
                 tiny = 1e-6 * basin.spacing
-                beyond = (low[k] < ends[0] - tiny and names[2 * k] not in basin.open) or (high[k] > ends[1] + tiny and names[2 * k + 1] not in basin.open)
+                beyond = (low[k] < ends[0] - tiny and basin.sides[2 * k] not in basin.open) or (high[k] > ends[1] + tiny and basin.sides[2 * k + 1] not in basin.open)
                 if beyond:
                     self.diagnostics.error(solid.where, f"'{name}' reaches from {low[k]:g} to {high[k]:g} along {'xyz'[k]}, through a wall of the box from "
                                            f"{ends[0]:g} to {ends[1]:g}", "a body that begins in a wall is not held by it")
+
+    def _covers(self, shape: Shape, basin: Basin) -> bool:
+        """Whether all particles would be inside of it, were it not there."""
+        some = False
+        for one in basin.water.lattices:  # boxes are compared first, with a cell more, which a body of water may cut
+            low, high = np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)
+            if not all(shape.low[k] <= low[k] + one.spacing and shape.high[k] >= high[k] - one.spacing for k in range(basin.dim)):
+                return False
+            cells = positions(replace(one, without=[], jitter=0.0), self.variables)
+            some |= len(cells) > 0
+            if not shape.contains(cells).all():
+                return False
+        return some
 
     @staticmethod
     def _is_closed(shape: Shape) -> bool:
@@ -287,13 +300,12 @@ class BasinReader(ShapeReader):
 
         return solid.is_thick(REACH * basin.spacing, dry if solid.is_still else None)
 
-    @staticmethod
-    def _holds_all(solid: Solid, basin: Basin) -> bool:
-        """Whether all of the water is within a closed shape, as in a tank: its outside is dry."""
+    def _holds_all(self, solid: Solid, basin: Basin) -> bool:
+        """Whether all of the water is within the surface of a closed shape, as in a tank: its outside is dry."""
         low, high = solid.shape.low[:basin.dim], solid.shape.high[:basin.dim]
         blocks = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
         blocks += [(shape.low, shape.high) for shape, _ in basin.fills]
-        return solid.closed and basin.box is None and all(np.all(a[:basin.dim] >= low) and np.all(b[:basin.dim] <= high) for a, b in blocks)
+        return self._is_closed(solid.shape) and basin.box is None and all(np.all(a[:basin.dim] >= low) and np.all(b[:basin.dim] <= high) for a, b in blocks)
 
     def fill(self, basin: Basin) -> None:
         """Lattices of the bodies of water, cells beside each other over all of the scene; water keeps out of what is solid."""
@@ -317,6 +329,7 @@ class BasinReader(ShapeReader):
         # contact acts at half a spacing; before ghosts at 0.2, so that points of the lattice on both sides of a wall are water or ghosts
         gap = 0.25 if basin.method == "ghosts" else 0.5
         out = [Near(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
+        out += [NearSurface(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if not solid.closed and self._is_closed(solid.shape)]
         out += [one.keeps_out(basin.dim, dx) for one in basin.structures]
         for lattice in basin.water.lattices:
             lattice.without = out
@@ -327,6 +340,6 @@ class BasinReader(ShapeReader):
             return np.array(basin.box[0])
         if basin.water.lattices:
             return np.array(basin.water.lattices[0].low)
-        return np.array(basin.fills[0][0].low)
+        return np.array(basin.fills[0][0].low) if basin.fills else np.zeros(3)
 
 
