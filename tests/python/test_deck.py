@@ -117,6 +117,17 @@ def test_arrays(tmp_path: Path) -> None:
     assert plate.sets["NODE", 5].tolist() == [1, 2, 3] and plate.curves[7].tolist() == [[0, 1], [2, 3]]
 
 
+@pytest.mark.parametrize("change", [
+    lambda one: one.curves.__setitem__(3, [[0, 0]]), lambda one: one.sets.__setitem__(("NODE", 5), [1]), lambda one: one.parts.__setitem__(1, None),
+    lambda one: one.elements.__setitem__("SHELL", None), lambda one: one.elements["SHELL"].nodes.__setitem__((0, 0), 99),
+    lambda one: one.sets["NODE", 5].__setitem__(0, 9), lambda one: one.curves[7].__setitem__((0, 0), 9), lambda one: one.ids.__setitem__(0, 9)])
+def test_what_would_not_be_written_is_read_only(tmp_path: Path, change: object) -> None:
+    plate = deck(tmp_path)
+    with pytest.raises((TypeError, ValueError, AttributeError)):
+        change(plate)  # type: ignore[operator]
+    assert plate.text == PLATE
+
+
 def test_keywords_are_added_and_taken_out(tmp_path: Path) -> None:
     plate = deck(tmp_path)
     plate.add("*DATABASE_GLSTAT\n0.001")
@@ -174,6 +185,11 @@ elastic
     (lambda one: one["MAT_ELASTIC"]["EE"], r"plate.k:21: error: \*MAT_ELASTIC_TITLE: it has no field 'EE'\n  hint: did you mean E\?"),
     (lambda one: one["PART"]["MID"], "it has 2 sets of cards"),
     (lambda one: one["MAT_ELASTIC"].__setitem__("MID", 1.5), "MID is a whole number"),
+    (lambda one: one["MAT_ELASTIC"].__setitem__("E", float("nan")), "E is a number, got nan"),
+    (lambda one: one["MAT_ELASTIC"].__setitem__("MID", float("inf")), "MID is a number, got inf"),
+    (lambda one: one["MAT_ELASTIC"].__setitem__("E", "abc"), "E is a number, got 'abc'"),
+    (lambda one: one.parameters.__setitem__("e", float("nan")), "parameter e is a number, got nan"),
+    (lambda one: one.parameters.__setitem__("e", "abc"), "parameter e is a number, got 'abc'"),
     (lambda one: one["PART"][0].sets[0].__setitem__("PID", 12345678901), "does not fit 10 columns"),
     (lambda one: one["SET_NODE_LIST"]["NID"], "NID is a list"),
     (lambda one: one.find("PART", MID=9), r"no sets of cards of \*PART have MID=9")])
