@@ -33,6 +33,7 @@ class BasinReader(ShapeReader):
         self.pistons: list[Piston] = []  # in the order of the scene
         self.of_inlets = 0  # dimensions of the scene by its first inlet
         self.basin: Basin | None = None
+        self.complete = True  # what was read of the basin; else parts that others name may be missing
 
     def read_basin(self, root: Node, model: Model) -> None:
         water = self.get(root, "water")
@@ -68,10 +69,12 @@ class BasinReader(ShapeReader):
             self.check_solids(basin)
             self.check_water(basin)
             self.check_bodies_of_the_plane(basin, joined_names(self, root))
-        if self.diagnostics.errors > before:
+        self.complete = self.diagnostics.errors == before
+        if not self.complete:
             return
         if fault := basin.complete():
             self.error(water, fault)
+            self.complete = False
         else:
             add_basin(basin, model)
 
