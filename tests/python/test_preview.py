@@ -12,7 +12,7 @@ needs_program = pytest.mark.skipif(not os.environ.get("COURANT_EXECUTABLE"), rea
 
 
 def test_no_call_of_the_package_has_the_name_of_a_module() -> None:
-    """Python puts a module that is imported in the place of the call."""
+    """A module that is imported would hide the call."""
     assert [name for name in courant.__all__ if importlib.util.find_spec(f"courant.{name}")] == []
 
 

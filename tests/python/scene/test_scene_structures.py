@@ -155,7 +155,7 @@ def test_mistakes_of_joints_are_named(kind: str, between: list[str], keys: dict[
     assert said in message(scene.joint(kind, between, at=(0.5, 0.5, 0.8), **keys))
 
 
-def test_a_mistake_of_a_shape_or_a_joint_is_told_alone() -> None:
+def test_a_mistake_of_a_shape_or_a_joint_is_reported_alone() -> None:
     """What could not be read is not missing for joints and gauges as well."""
     ball = space().wall(title="ball", sphere={"centre": (0.5, 0.5, 0.3)}).gauge("f", force="ball").gauge("g", force="walls")
     assert message(ball).count("error") == 1 and "'radius' is missing" in message(ball)
