@@ -117,6 +117,17 @@ def test_arrays(tmp_path: Path) -> None:
     assert plate.sets["NODE", 5].tolist() == [1, 2, 3] and plate.curves[7].tolist() == [[0, 1], [2, 3]]
 
 
+@pytest.mark.parametrize("change", [
+    lambda one: one.curves.__setitem__(3, [[0, 0]]), lambda one: one.sets.__setitem__(("NODE", 5), [1]), lambda one: one.parts.__setitem__(1, None),
+    lambda one: one.elements.__setitem__("SHELL", None), lambda one: one.elements["SHELL"].nodes.__setitem__((0, 0), 99),
+    lambda one: one.sets["NODE", 5].__setitem__(0, 9), lambda one: one.curves[7].__setitem__((0, 0), 9), lambda one: one.ids.__setitem__(0, 9)])
+def test_what_would_not_be_written_is_read_only(tmp_path: Path, change: object) -> None:
+    plate = deck(tmp_path)
+    with pytest.raises((TypeError, ValueError, AttributeError)):
+        change(plate)  # type: ignore[operator]
+    assert plate.text == PLATE
+
+
 def test_keywords_are_added_and_taken_out(tmp_path: Path) -> None:
     plate = deck(tmp_path)
     plate.add("*DATABASE_GLSTAT\n0.001")
@@ -126,11 +137,59 @@ def test_keywords_are_added_and_taken_out(tmp_path: Path) -> None:
         plate.add("0.001")
 
 
+def test_keywords_with_the_same_cards_are_not_the_same(tmp_path: Path) -> None:
+    some = deck(tmp_path, """*KEYWORD
+*DATABASE_GLSTAT
+0.001
+*DATABASE_MATSUM
+0.002
+*LOAD_BODY_X
+         1      9.81
+*LOAD_BODY_Z
+         1      1.62
+*CONTACT_AUTOMATIC_SINGLE_SURFACE_ID
+         1 all
+         0         0
+*CONTACT_AUTOMATIC_GENERAL
+         0         0
+*MAT_010
+         1
+*MAT_ELASTIC_PLASTIC_HYDRO_SPALL
+         2
+*MAT_ELASTIC
+         3
+*MAT_ELASTIC_TITLE
+elastic
+         4
+*SET_NODE
+         5
+*CONTROL_TIME_STEP
+         0
+*END
+""")
+    names = [block.name for block in some]
+    assert "LOAD_BODY_Y" not in some and some["LOAD_BODY_Z"]["SF"] == 1.62
+    some["LOAD_BODY_X"]["SF"] = 55
+    assert some["LOAD_BODY_Z"]["SF"] == 1.62 and some["LOAD_BODY_X"]["SF"] == 55
+    assert [some.remove(name) for name in ("DATABASE_GLSTAT", "LOAD_BODY_X", "CONTACT_AUTOMATIC_SINGLE_SURFACE", "MAT_ELASTIC_PLASTIC_HYDRO")] == [1] * 4
+    assert [block.name for block in some] == [name for name in names if name not in ("DATABASE_GLSTAT", "LOAD_BODY_X", "CONTACT_AUTOMATIC_SINGLE_SURFACE_ID", "MAT_010")]
+    assert some["MAT_010_SPALL"]["MID"] == 2 and "CONTACT_SINGLE_SURFACE" not in some
+    assert [block["MID"] for block in some["MAT_001"]] == [3, 4] and some["MAT_001_TITLE"]["MID"] == 4
+    assert "SET_NODE_LIST" in some and "SET_NODE_LIST_GENERATE" not in some and "CONTROL_TIMESTEP" in some
+    with pytest.raises(courant.CourantError, match="no \\*LOAD_BODY_X\n  hint: did you mean LOAD_BODY_Z"):
+        some["LOAD_BODY_X"]
+
+
 @pytest.mark.parametrize(("change", "message"), [
     (lambda one: one["MAT_ELASTC"], r"no \*MAT_ELASTC\n  hint: did you mean MAT_ELASTIC"),
     (lambda one: one["MAT_ELASTIC"]["EE"], r"plate.k:21: error: \*MAT_ELASTIC_TITLE: it has no field 'EE'\n  hint: did you mean E\?"),
     (lambda one: one["PART"]["MID"], "it has 2 sets of cards"),
     (lambda one: one["MAT_ELASTIC"].__setitem__("MID", 1.5), "MID is a whole number"),
+    (lambda one: one["MAT_ELASTIC"].__setitem__("E", float("nan")), "E is a number, got nan"),
+    (lambda one: one["MAT_ELASTIC"].__setitem__("MID", float("inf")), "MID is a number, got inf"),
+    (lambda one: one["MAT_ELASTIC"].__setitem__("E", "abc"), "E is a number, got 'abc'"),
+    (lambda one: one.parameters.__setitem__("e", float("nan")), "parameter e is a number, got nan"),
+    (lambda one: one.parameters.__setitem__("e", "abc"), "parameter e is a number, got 'abc'"),
     (lambda one: one["PART"][0].sets[0].__setitem__("PID", 12345678901), "does not fit 10 columns"),
     (lambda one: one["SET_NODE_LIST"]["NID"], "NID is a list"),
     (lambda one: one.find("PART", MID=9), r"no sets of cards of \*PART have MID=9")])

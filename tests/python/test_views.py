@@ -21,7 +21,7 @@ from made_runs import DX, block, frame, lattice, write_fields, write_history, wr
 
 pytest.importorskip("matplotlib")
 from courant.post.raster import Raster  # noqa: E402
-from courant.post.view_plane import fill, plane_window, surface_line, wall_traces  # noqa: E402
+from courant.post.view_plane import _add, fill, plane_window, surface_line, wall_traces  # noqa: E402
 from courant.post.view_scene import View, colour_range, colours_of, scene_of, spoken  # noqa: E402
 from courant.post.view_space import nice_length, render  # noqa: E402
 from courant.post.views import draw_view, draw_views, save_view  # noqa: E402
@@ -458,3 +458,15 @@ def test_bodies_are_opaque_and_the_walls_around_the_water_are_not() -> None:
     assert walls is not None
     seen = {int(number): bool(bodies_among(walls, x)[walls.part == number].all()) for number in np.unique(walls.part)}
     assert seen == {1: False, 2: True, 3: False, 4: True}
+
+
+@pytest.mark.parametrize("share", [0.001, 0.5])
+def test_pixels_are_summed_alike_with_and_without_a_pass_over_the_picture(share: float) -> None:
+    """Few particles with wide kernels, as of a coarse scene, took minutes to draw."""
+    random = np.random.default_rng(1)
+    at = random.integers(0, 1000, int(share * 100_000))
+    more = random.random(len(at))
+    total, other = np.full(100_000, 0.1), np.full(100_000, 0.1)
+    _add(total, at, more)
+    other += np.bincount(at, more, len(other))
+    assert np.array_equal(total, other)

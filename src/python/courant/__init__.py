@@ -13,7 +13,7 @@ from .optional import lazily
 if TYPE_CHECKING:
     from .deck.deck import Deck
     from .diagnostics import CourantError
-    from .preview import preview
+    from .previewing import preview
     from .results import Results, open
     from .running import Run, RunFailed, check, run
     from .live import LiveState
@@ -27,4 +27,4 @@ __all__ = ["CourantError", "Deck", "LiveState", "Results", "Run", "RunFailed", "
 # so that the calls start before numpy is there, and can tell where it is missing
 __getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".deck.deck": ["Deck"], ".results": ["Results", "open"],
                                 ".running": ["Run", "RunFailed", "check", "run"], ".live": ["LiveState"], ".scene.scene": ["Scene"], ".stepping": ["Steps", "steps"],
-                                ".preview": ["preview"], ".sweeping": ["sweep"], ".tables": ["Table"], ".units": ["Units"]})
+                                ".previewing": ["preview"], ".sweeping": ["sweep"], ".tables": ["Table"], ".units": ["Units"]})

@@ -155,6 +155,18 @@ def test_mistakes_of_joints_are_named(kind: str, between: list[str], keys: dict[
     assert said in message(scene.joint(kind, between, at=(0.5, 0.5, 0.8), **keys))
 
 
+def test_a_mistake_of_a_shape_or_a_joint_is_reported_alone() -> None:
+    """What could not be read is not missing for joints and gauges as well."""
+    ball = space().wall(title="ball", sphere={"centre": (0.5, 0.5, 0.3)}).gauge("f", force="ball").gauge("g", force="walls")
+    assert message(ball).count("error") == 1 and "'radius' is missing" in message(ball)
+    gate = {"title": "gate", "box": {"low": (0.2, 0.2, 0.5), "high": (0.4, 0.4, 0.7)}}
+    at = {"between": ["gate", "walls"], "at": [0.2, 0.2, 0.5]}
+    light = space().body(**gate).joint(kind="hinge", axis=[0, 1, 0], **at)
+    assert message(light).count("error") == 1 and "its 'density'" in message(light)
+    hing = space().body(**gate, density=500).joint(kind="hing", **at)
+    assert message(hing).count("error") == 1 and "did you mean hinge" in message(hing)
+
+
 @pytest.mark.parametrize(("scene", "said"), [
     (lambda: tank().inlet(at=(0.1, 0.5), direction=(1, 0), speed=1, radius=0.1), "unknown key 'radius'"),
     (lambda: tank().inlet(at=(0.1, 0.5), direction=(0, 0), speed=1, width=0.1), "a direction of the flow that is not zero"),

@@ -1,6 +1,7 @@
 """Blocks of a deck, a keyword with its lines, and the fields of its cards. Comments and the order of lines stay as they are."""
 from __future__ import annotations
 
+import math
 import re
 from typing import Any, Union
 
@@ -12,6 +13,7 @@ from .tables import CardOf, FieldOf, TableOf, table_of
 Value = Union[int, float, str, None]
 _INTEGER = re.compile(r"[+-]?\d+", re.ASCII)
 _REAL = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdD]?([+-]\d+)|[eEdD](\d+))?", re.ASCII)
+_NAMED = re.compile(r"&|<.*>")  # of a parameter or an expression
 _LEAST_DIGITS = 1e-6  # a number that its columns hold less exactly is refused
 
 
@@ -165,6 +167,10 @@ class Block:
             return ""
         if isinstance(value, str):
             text = value
+            if one.kind != "A" and isinstance(value_of(text), str) and not _NAMED.search(text):
+                raise self.fault(f"{one.name} is a number, got {value!r}", "a number, or a parameter: '&dx'")
+        elif not math.isfinite(value):
+            raise self.fault(f"{one.name} is a number, got {value!r}")
         elif isinstance(value, bool) or (one.kind == "I" and float(value) != int(value)):
             raise self.fault(f"{one.name} is a whole number, got {value!r}")
         elif one.kind == "A":

@@ -9,9 +9,10 @@ deck.write("stiffer.k"); run = deck.run("results", until=0.1)
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from os import PathLike, fspath, path
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -20,9 +21,9 @@ from ..diagnostics import CourantError, Diagnostics, Location
 from ..files import OutputError, make_folder, write_file
 from ..words import did_you_mean
 from .blocks import Block, CardSet, Value
-from .mesh import Elements, curves_of, elements_of, nodes_of, sets_of, write_points
+from .mesh import Elements, curves_of, elements_of, fixed, nodes_of, sets_of, write_points
 from .parameters import Parameters
-from .tables import same_keyword
+from .tables import same_keyword, without_options
 
 _LONG = re.compile(r"long\s*=\s*(\w)", re.IGNORECASE)
 _I10 = re.compile(r"i10\s*=\s*y", re.IGNORECASE)
@@ -107,13 +108,14 @@ class Deck:
         return bool(self._of(keyword))
 
     def _of(self, keyword: str) -> list[Block]:
-        wanted = {name.removesuffix("_TITLE") for name in same_keyword(keyword.lstrip("*").upper())}
-        wanted.add(keyword.lstrip("*").upper())
-        known = [block for block in self.blocks if block.name in wanted]
-        return known or [block for block in self.blocks if block.table and wanted & set(block.table.names)]
+        name = keyword.lstrip("*").upper()
+        wanted, options = same_keyword(name), set(without_options(name)[1])
+        named = [(block, *without_options(block.name)) for block in self.blocks]
+        return [block for block, base, own in named if base in wanted and options <= set(own)]
 
     def __getitem__(self, keyword: str) -> Found:
-        """All blocks of a keyword, by any of its names (MAT_024 is MAT_PIECEWISE_LINEAR_PLASTICITY), also with _TITLE or _ID. Raises CourantError."""
+        """All blocks of a keyword, by any of its names (MAT_024 is MAT_PIECEWISE_LINEAR_PLASTICITY), also with _TITLE or _ID; of a name with such an option
+        only those that have it. Raises CourantError."""
         found = self._of(keyword)
         if not found:
             names = sorted({block.name.removesuffix("_TITLE").removesuffix("_ID") for block in self.blocks})
@@ -176,7 +178,7 @@ class Deck:
     @property
     def ids(self) -> np.ndarray:
         """Numbers of the nodes of this file, (n,)."""
-        return nodes_of(self.blocks)[0]
+        return fixed(nodes_of(self.blocks)[0])
 
     @property
     def points(self) -> np.ndarray:
@@ -187,28 +189,28 @@ class Deck:
         return self._points
 
     @property
-    def elements(self) -> dict[str, Elements]:
-        """Elements of this file by kind, "SHELL": ids (m,), parts (m,), nodes (m, corners)."""
-        return elements_of(self.blocks)
+    def elements(self) -> Mapping[str, Elements]:
+        """Elements of this file by kind, "SHELL": ids (m,), parts (m,), nodes (m, corners). Read-only, as `sets` and `curves` are."""
+        return MappingProxyType(elements_of(self.blocks))
 
     @property
-    def parts(self) -> dict[int, CardSet]:
+    def parts(self) -> Mapping[int, CardSet]:
         """Sets of cards of *PART and its like by the number of the part."""
-        out = {}
+        out: dict[int, CardSet] = {}
         for block in self.blocks:
             if block.name.split("_")[0] == "PART" and "PID" in block:
                 out |= {number: one for one in block.sets if isinstance(number := one["PID"], int)}
-        return out
+        return MappingProxyType(out)
 
     @property
-    def sets(self) -> dict[tuple[str, int], np.ndarray]:
+    def sets(self) -> Mapping[tuple[str, int], np.ndarray]:
         """Numbers in sets that list them, ("NODE", 3), ("PART", 2); sets by rules (_GENERAL, _ADD) are not among them."""
-        return sets_of(self.blocks)
+        return MappingProxyType(sets_of(self.blocks))
 
     @property
-    def curves(self) -> dict[int, np.ndarray]:
+    def curves(self) -> Mapping[int, np.ndarray]:
         """Points of *DEFINE_CURVE by number, (n, 2), without its scales and offsets."""
-        return curves_of(self.blocks)
+        return MappingProxyType(curves_of(self.blocks))
 
     # what becomes of it
 

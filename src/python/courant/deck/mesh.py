@@ -16,6 +16,12 @@ class Elements(NamedTuple):
     nodes: np.ndarray  # (m, corners); 0 where a line has none
 
 
+def fixed(values: np.ndarray) -> np.ndarray:
+    """Made read-only: what is written into it would not be in the deck."""
+    values.setflags(write=False)
+    return values
+
+
 def _table(block: Block, widths: list[int]) -> np.ndarray:
     """Numbers of all cards, one after the other in fields of these widths, (rows, fields); 0 where blank. Raises CourantError."""
     rows = block.rows
@@ -87,7 +93,7 @@ def elements_of(blocks: Iterable[Block]) -> dict[str, Elements]:
         if kind == "SOLID" and len(rows) and not rows[0, 2:].any():  # number and part on one line, all nodes on the next
             rows = np.column_stack([rows[::2, :2], rows[1::2, :10]])
         found.setdefault(kind, []).append(Elements(rows[:, 0], rows[:, 1], rows[:, 2 : 2 + _CORNERS[kind]] if not rows[:, 10:].any() else rows[:, 2:]))
-    return {kind: Elements(*(np.concatenate(some) for some in zip(*several))) for kind, several in found.items()}
+    return {kind: Elements(*(fixed(np.concatenate(some)) for some in zip(*several))) for kind, several in found.items()}
 
 
 def sets_of(blocks: Iterable[Block]) -> dict[tuple[str, int], np.ndarray]:
@@ -107,7 +113,7 @@ def sets_of(blocks: Iterable[Block]) -> dict[tuple[str, int], np.ndarray]:
         if not isinstance(first[0], int):
             raise block.fault(f"its number '{first[0]}' is a parameter: sets with parameters are not read as arrays")
         key = (words[1], first[0])
-        out[key] = np.concatenate([out[key], found]) if key in out else found
+        out[key] = fixed(np.concatenate([out[key], found]) if key in out else found)
     return out
 
 
@@ -130,5 +136,5 @@ def curves_of(blocks: Iterable[Block]) -> dict[int, np.ndarray]:
                 raise block.fault(f"a point of curve {number} is not two numbers: curves with parameters are not read as arrays")
             points.append([float(one or 0) for one in pair])
         if isinstance(number, int):
-            out[number] = np.array(points).reshape(-1, 2)
+            out[number] = fixed(np.array(points, dtype=float).reshape(-1, 2))
     return out

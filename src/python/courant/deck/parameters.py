@@ -1,6 +1,7 @@
 """Parameters of a deck."""
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator, MutableMapping
 from typing import Union
@@ -50,6 +51,10 @@ class Parameters(MutableMapping[str, Number]):
         if "EXPRESSION" in block.name and after and not _slots(block, after[0]):
             raise block.fault(f"the expression of parameter {name} goes on over several lines", "change block.lines")
         free = "," in line or "EXPRESSION" in block.name  # the rest of the line is the value
+        if isinstance(value, str) and letter != "C" and not free and isinstance(value_of(value), str) and not value.lstrip().startswith(("&", "-&")):
+            raise block.fault(f"parameter {name} is a number, got {value!r}")
+        if value is not None and not isinstance(value, str) and not math.isfinite(value):
+            raise block.fault(f"parameter {name} is a number, got {value!r}")
         if letter == "I" and not isinstance(value, str) and (value is None or float(value) != int(value)):
             raise block.fault(f"parameter {name} is a whole number, got {value!r}")
         if isinstance(value, str) or value is None:

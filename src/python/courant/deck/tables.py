@@ -71,20 +71,50 @@ def parse(text: str) -> dict[str, TableOf]:
     return out
 
 
-def table_of(keyword: str) -> tuple[TableOf | None, list[str]]:
-    """Of a keyword as a deck has it, without *, and the options in its name that put a line first."""
+def without_options(keyword: str) -> tuple[str, list[str]]:
+    """A keyword as a deck has it, without *, less the options of its name that its cards do not depend on, and these."""
     known = tables()
     name, options = keyword.upper(), list[str]()
     while name not in known:
         base, _, last = name.rpartition("_")
         if last not in ("TITLE", "ID", "MPP", "COLLECT") or not base:
-            return None, []
+            base = keyword.upper().removesuffix("_TITLE")  # of a keyword that the program does not know
+            return base, ["TITLE"] if base != keyword.upper() else []
         options.insert(0, last)
         name = base
-    return known[name], [option for option in options if option in ("TITLE", "ID", "MPP")]
+    return name, options
+
+
+def table_of(keyword: str) -> tuple[TableOf | None, list[str]]:
+    """Of a keyword as a deck has it, without *, and the options in its name that put a line first."""
+    name, options = without_options(keyword)
+    table = tables().get(name)
+    return table, [option for option in options if option in ("TITLE", "ID", "MPP")] if table else []
 
 
 def same_keyword(name: str) -> set[str]:
-    """All names of a keyword, of materials number and name."""
-    table, _ = table_of(name)
-    return set(table.names) if table else {name.upper()}
+    """All names that mean the same as this one, without options: of materials and equations of state number and name, of others spellings. One table of
+    cards serves several keywords (*LOAD_BODY_X and _Y, most *CONTACT_), which are not the same."""
+    name, _ = without_options(name)
+    table = tables().get(name)
+    return {other for other in (table.names if table else ()) if _same(name, other, table)} | {name}
+
+
+def _same(one: str, other: str, table: TableOf | None) -> bool:
+    if table and one.startswith(("MAT_", "EOS_")):
+        return _addition(one, table) == _addition(other, table)
+    a, b = _words(one), _words(other)
+    return "".join(a) == "".join(b) or sorted(a) == sorted(b)
+
+
+def _addition(name: str, table: TableOf) -> str:
+    """What a name has more than another one of the table: SPALL."""
+    return max((name[len(other) + 1 :] for other in table.names if name.startswith(other + "_")), key=len, default="")
+
+
+_SPELLED = {"TRANSFORM": "TRANSFORMATION", "NODES": "NODE"}
+
+
+def _words(name: str) -> list[str]:
+    words = [_SPELLED.get(word, word) for word in re.split("[_/-]", name)]
+    return [word for word in words if word != "LIST" or words[0] != "SET"]

@@ -143,6 +143,15 @@ class Basin:
         """left and right along x, bottom and top, in 3D front and back along y."""
         return ("left", "right", "bottom", "top") if self.dim == 2 else ("left", "right", "front", "back", "bottom", "top")
 
+    def is_outside(self, x: np.ndarray) -> np.ndarray:
+        """Which points (n, 3) are beyond a wall of the box, if it is at rest; (n,)."""
+        out = np.zeros(len(x), dtype=bool)
+        for k in range(self.dim if self.box and not self.box_motion else 0):
+            low, high = self.sides[2 * k : 2 * k + 2]
+            out |= (x[:, k] < self.box[0][k]) & (low not in self.open)  # type: ignore[index]
+            out |= (x[:, k] > self.box[1][k]) & (high not in self.open)  # type: ignore[index]
+        return out
+
     def complete(self) -> str:
         """Fills in the sound speed, twenty times the speed that the water gets; what is wrong, or nothing."""
         up = self.dim - 1

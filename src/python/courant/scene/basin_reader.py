@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -9,14 +10,14 @@ from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
 from .joints import joined_names
-from .model import MOST_ENTITIES, Lattice, Model, Near
+from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface
 from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
 from .structure_reader import read_structures
-from .water_checks import check_overlaps, check_piston
+from .water_checks import check_overlaps, check_piston, positions
 from .wave_reader import Piston, check_reach, read_waves
 
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
@@ -32,6 +33,7 @@ class BasinReader(ShapeReader):
         self.pistons: list[Piston] = []  # in the order of the scene
         self.of_inlets = 0  # dimensions of the scene by its first inlet
         self.basin: Basin | None = None
+        self.complete = True  # what was read of the basin; else parts that others name may be missing
 
     def read_basin(self, root: Node, model: Model) -> None:
         water = self.get(root, "water")
@@ -67,10 +69,12 @@ class BasinReader(ShapeReader):
             self.check_solids(basin)
             self.check_water(basin)
             self.check_bodies_of_the_plane(basin, joined_names(self, root))
-        if self.diagnostics.errors > before:
+        self.complete = self.diagnostics.errors == before
+        if not self.complete:
             return
         if fault := basin.complete():
             self.error(water, fault)
+            self.complete = False
         else:
             add_basin(basin, model)
 
@@ -182,7 +186,7 @@ class BasinReader(ShapeReader):
                     continue
                 shape.mesh = 2 * basin.spacing
                 self.add_entities(entry, len(shape.faces))
-                solid = Solid(shape, closed=self._is_closed(shape), where=self.at(entry))
+                solid = Solid(shape, closed=self._is_closed(shape) and not self.flag(entry, "open", False), where=self.at(entry))
                 if key == "walls":
                     before = len(self.pistons)
                     solid.motion = self.read_motion(entry, basin)
@@ -213,21 +217,33 @@ class BasinReader(ShapeReader):
 
     def check_solids(self, basin: Basin) -> None:
         """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""
-        names = ("left", "right", "bottom", "top") if basin.dim == 2 else ("left", "right", "front", "back", "bottom", "top")
-        water = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
         for solid in basin.solids:
             low, high = np.array(solid.shape.low, float)[:basin.dim], np.array(solid.shape.high, float)[:basin.dim]
             name = solid.shape.name or "a solid"
-            if solid.closed and water and all((low <= a[:basin.dim]).all() and (high >= b[:basin.dim]).all() for a, b in water):
+            if solid.closed and self._covers(solid.shape, basin):
                 size = " x ".join(f"{length:g}" for length in high - low)
-                self.diagnostics.error(solid.where, f"'{name}', {size}, covers all the water", "is its file in millimetres? 'scale: 0.001' makes metres of them")
+                self.diagnostics.error(solid.where, f"'{name}', {size}, is solid and covers all the water", "of a tank, 'open: true' takes the surface alone; "
+                                       "is it a file in millimetres? 'scale: 0.001' makes metres of them")
             for k in range(basin.dim if solid.free and basin.box else 0):
                 ends = basin.box[0][k], basin.box[1][k]  # type: ignore[index]
                 tiny = 1e-6 * basin.spacing
-                beyond = (low[k] < ends[0] - tiny and names[2 * k] not in basin.open) or (high[k] > ends[1] + tiny and names[2 * k + 1] not in basin.open)
+                beyond = (low[k] < ends[0] - tiny and basin.sides[2 * k] not in basin.open) or (high[k] > ends[1] + tiny and basin.sides[2 * k + 1] not in basin.open)
                 if beyond:
                     self.diagnostics.error(solid.where, f"'{name}' reaches from {low[k]:g} to {high[k]:g} along {'xyz'[k]}, through a wall of the box from "
                                            f"{ends[0]:g} to {ends[1]:g}", "a body that begins in a wall is not held by it")
+
+    def _covers(self, shape: Shape, basin: Basin) -> bool:
+        """Whether all particles would be inside of it, were it not there."""
+        some = False
+        for one in basin.water.lattices:  # boxes are compared first, with a cell more, which a body of water may cut
+            low, high = np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)
+            if not all(shape.low[k] <= low[k] + one.spacing and shape.high[k] >= high[k] - one.spacing for k in range(basin.dim)):
+                return False
+            cells = positions(replace(one, without=[], jitter=0.0), self.variables)
+            some |= len(cells) > 0
+            if not shape.contains(cells).all():
+                return False
+        return some
 
     @staticmethod
     def _is_closed(shape: Shape) -> bool:
@@ -262,7 +278,7 @@ class BasinReader(ShapeReader):
             basin.method = "mirrors"  # right behind walls along the axes, and calm where water strikes them
         elif basin.inlets:  # ghosts are behind walls of the water that is there at the start
             self.take_mirrors(basin)
-        elif not (thin := [solid for solid in basin.solids if solid.piston is None and not solid.is_thick(REACH * basin.spacing) and not self._holds_all(solid, basin)]):
+        elif not (thin := [solid for solid in basin.solids if solid.piston is None and not self._is_thick(solid, basin) and not self._holds_all(solid, basin)]):
             basin.method = "ghosts"
         else:
             self.take_mirrors(basin)
@@ -278,12 +294,21 @@ class BasinReader(ShapeReader):
         basin.method = "mixed" if shaped else "mirrors"
 
     @staticmethod
-    def _holds_all(solid: Solid, basin: Basin) -> bool:
-        """Whether all of the water is within a closed shape, as in a tank: its outside is dry."""
+    def _is_thick(solid: Solid, basin: Basin) -> bool:
+        """Where a held solid is on the floor or at a wall of the box, or on another that is held, there is no water: neither in front nor behind."""
+        others = [one for one in basin.solids if one is not solid and one.is_still and (one.closed or one.shape.ground)]
+
+        def dry(x: np.ndarray) -> np.ndarray:
+            return np.any([basin.is_outside(x), *(one.shape.contains(x) for one in others)], axis=0)  # type: ignore[no-any-return]
+
+        return solid.is_thick(REACH * basin.spacing, dry if solid.is_still else None)
+
+    def _holds_all(self, solid: Solid, basin: Basin) -> bool:
+        """Whether all of the water is within the surface of a closed shape, as in a tank: its outside is dry."""
         low, high = solid.shape.low[:basin.dim], solid.shape.high[:basin.dim]
         blocks = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
         blocks += [(shape.low, shape.high) for shape, _ in basin.fills]
-        return solid.closed and basin.box is None and all(np.all(a[:basin.dim] >= low) and np.all(b[:basin.dim] <= high) for a, b in blocks)
+        return self._is_closed(solid.shape) and basin.box is None and all(np.all(a[:basin.dim] >= low) and np.all(b[:basin.dim] <= high) for a, b in blocks)
 
     def fill(self, basin: Basin) -> None:
         """Lattices of the bodies of water, cells beside each other over all of the scene; water keeps out of what is solid."""
@@ -307,6 +332,7 @@ class BasinReader(ShapeReader):
         # contact acts at half a spacing; before ghosts at 0.2, so that points of the lattice on both sides of a wall are water or ghosts
         gap = 0.25 if basin.method == "ghosts" else 0.5
         out = [Near(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
+        out += [NearSurface(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if not solid.closed and self._is_closed(solid.shape)]
         out += [one.keeps_out(basin.dim, dx) for one in basin.structures]
         for lattice in basin.water.lattices:
             lattice.without = out
@@ -317,6 +343,6 @@ class BasinReader(ShapeReader):
             return np.array(basin.box[0])
         if basin.water.lattices:
             return np.array(basin.water.lattices[0].low)
-        return np.array(basin.fills[0][0].low)
+        return np.array(basin.fills[0][0].low) if basin.fills else np.zeros(3)
 
 

@@ -92,7 +92,10 @@ class Placer:
             placed.masses.append((placed.size() - placed.particles(), part.density * lattice.volume if part.density > 0 else -lattice.volume))
         meshed = bool(part.plates or part.solids)
         if not meshed and not placed.particles() and not part.empty and self.diagnostics.ok:
-            self.diagnostics.error(part.where, f"part {part.id} has no particles: 'where' leaves none", "a particle is kept where the expression is > 0")
+            if any(one.without for one in part.lattices) and not any(one.where for one in part.lattices):
+                self.diagnostics.error(part.where, f"part {part.id} has no particles: walls and bodies cover all of it", "a tank is a shape with 'open: true'")
+            else:
+                self.diagnostics.error(part.where, f"part {part.id} has no particles: 'where' leaves none", "a particle is kept where the expression is > 0")
         if meshed:
             _place_plates(part, placed)
         self.node += placed.size()
@@ -243,7 +246,8 @@ def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bo
     head += f"*KEYWORD\n*TITLE\n{model.title}\n"
     head += "".join(block if not block or block.endswith("\n") else block + "\n" for block in model.keywords)
     out = [(head + _parts_text(model.parts)).encode("utf-8", "surrogateescape")]
-    out.append(b"*NODE\n$#   nid               x               y               z      tc      rc\n")
+    if any(one.nodes for one in placed):  # an inlet needs none at the start
+        out.append(b"*NODE\n$#   nid               x               y               z      tc      rc\n")
     for one in placed:
         first = one.first
         for group in one.nodes:

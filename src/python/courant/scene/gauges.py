@@ -130,6 +130,8 @@ def _part(reader: SceneReader, node: Node, model: Model, key: str) -> int:
     titles = {part.title: part.id for part in model.parts}
     number = titles.get(text, int(text) if text.isdigit() else 0)
     found = next((part for part in model.parts if part.id == number), None)
+    if found is None and not reader.complete:
+        return 0  # it may be one that could not be read
     if found is None:
         # keywords may bring parts of their own, which only the program knows
         if number and any("*PART" in (upper := block.upper()) or "*INCLUDE" in upper for block in model.keywords):

@@ -65,10 +65,10 @@ def _read_one(reader: SceneReader, node: Node, model: Model, basin: Basin, numbe
     at, dim = reader.vector(node, "at")
     if dim and dim != basin.dim:
         reader.error(reader.get(node, "at") or node, f"at: expected {basin.dim} components")
-    axis = _axis(reader, node, kind, basin.dim)
-    parts = _between(reader, node, basin)
+    axis = _axis(reader, node, kind, basin.dim) if kind in _KINDS else np.zeros(3)
+    parts = _between(reader, node, basin) if reader.complete else (0, 0)  # else a body that could not be read would be missing
     springs = [_positive(reader, node, key, kind) for key in ("stiffness", "damping")]
-    if reader.diagnostics.errors > before:
+    if reader.diagnostics.errors > before or not reader.complete:
         return
     model.keywords.append(_cards(kind, number, parts, np.array(at), axis, basin) + _spring_cards(number, parts, axis, springs))
     names = {part: name for name, part in basin.rigid_parts().items()}

@@ -58,6 +58,18 @@ class Near:
 
 
 @dataclass
+class NearSurface(Near):
+    """What is nearer than the margin to the surface of a closed shape, on both sides."""
+
+    def contains(self, x: np.ndarray) -> np.ndarray:
+        inside = self.shape.contains(x)
+        out = np.zeros(len(x), dtype=bool)
+        for shift in self.margin * np.concatenate([np.eye(3), -np.eye(3)])[[0, 1, 3, 4, 2, 5][: 2 * self.shape.dim]]:
+            out |= self.shape.contains(x + shift) != inside
+        return out
+
+
+@dataclass
 class Plate:
     """A parallelogram of four-noded shells, so many along its edges."""
 

@@ -268,10 +268,10 @@ class Scene:
         """A picture of the first state, before the run: courant.preview has the arguments."""
         import tempfile
 
-        from ..preview import preview
+        from ..previewing import preview_of
 
         with tempfile.TemporaryDirectory(prefix="courant_") as folder:
-            return preview(self.write(Path(folder, "scene.k")), file, field, **keys)
+            return preview_of(self.write(Path(folder, "scene.k")), self._path, file, field, **keys)
 
     def run(self, folder: str | PathLike[str] = "results", **options: Any) -> Any:
         """Writes the deck to the folder and runs it: courant.run has the options and what is raised."""
