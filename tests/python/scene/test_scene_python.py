@@ -228,7 +228,7 @@ def test_a_damaged_file_is_told(tmp_path: Path) -> None:
 
 def test_choices_are_explained() -> None:
     text = scene().explain()
-    for word in ("sound speed 49", "walls have ghost particles", "9810 * (0.3 - z)", "*CONTROL_SPH", "states each 0.001"):
+    for word in ("sound speed 49", "walls are mirrors", "9810 * (0.3 - z)", "*CONTROL_SPH", "states each 0.001"):
         assert word in text, text
 
 

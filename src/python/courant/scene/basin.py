@@ -132,7 +132,6 @@ class Basin:
     box_motion: dict[str, str | np.ndarray] = field(default_factory=dict)  # displacements of the box by axis, formulas of TIME [L]
     fills: list[tuple[Any, Any]] = field(default_factory=list)  # shapes that are filled with water, and their entries
     solids: list[Solid] = field(default_factory=list)
-    thin: str = ""  # why walls have no ghost particles
     structures: list[Structure] = field(default_factory=list)  # parts that deform
     inlets: list[Inlet] = field(default_factory=list)
     outlets: list[Outlet] = field(default_factory=list)
@@ -142,15 +141,6 @@ class Basin:
     def sides(self) -> tuple[str, ...]:
         """left and right along x, bottom and top, in 3D front and back along y."""
         return ("left", "right", "bottom", "top") if self.dim == 2 else ("left", "right", "front", "back", "bottom", "top")
-
-    def is_outside(self, x: np.ndarray) -> np.ndarray:
-        """Which points (n, 3) are beyond a wall of the box, if it is at rest; (n,)."""
-        out = np.zeros(len(x), dtype=bool)
-        for k in range(self.dim if self.box and not self.box_motion else 0):
-            low, high = self.sides[2 * k : 2 * k + 2]
-            out |= (x[:, k] < self.box[0][k]) & (low not in self.open)  # type: ignore[index]
-            out |= (x[:, k] > self.box[1][k]) & (high not in self.open)  # type: ignore[index]
-        return out
 
     def complete(self) -> str:
         """Fills in the sound speed, twenty times the speed that the water gets; what is wrong, or nothing."""

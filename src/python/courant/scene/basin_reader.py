@@ -23,7 +23,6 @@ from .wave_reader import Piston, check_reach, read_waves
 _WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
 MOST_MIRRORS = 12  # lines of a shape in the plane
-REACH = 3.6  # spacings: nearly what the kernel reaches
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
 
@@ -272,43 +271,12 @@ class BasinReader(ShapeReader):
     def read_method(self, root: Node, basin: Basin) -> None:
         node = self.get(root, "wall_method")
         asked = self.text(node) if node is not None else "auto"
-        if asked != "auto":
-            basin.method = asked
-        elif basin.dim == 2 and not any(solid.is_oblique() or len(solid.shape.faces) > MOST_MIRRORS for solid in basin.solids):
-            basin.method = "mirrors"  # right behind walls along the axes, and calm where water strikes them
-        elif basin.inlets:  # ghosts are behind walls of the water that is there at the start
-            self.take_mirrors(basin)
-        elif not (thin := [solid for solid in basin.solids if solid.piston is None and not self._is_thick(solid, basin) and not self._holds_all(solid, basin)]):
-            basin.method = "ghosts"
-        else:
-            self.take_mirrors(basin)
-            basin.thin = f"'{thin[0].shape.name}' is thin, so that ghost particles have no space behind it; "
+        # mirrors of many faces take most of the time of a run
+        shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
+        basin.method = asked if asked != "auto" else "mixed" if shaped else "mirrors"
         if node is not None:
             if asked not in (*METHODS, "auto"):
                 self.error(node, f"wall_method: '{asked}' is none", f"it is one of {', '.join(METHODS)}, auto")
-
-    @staticmethod
-    def take_mirrors(basin: Basin) -> None:
-        """But where they have many faces and take most of the time of a run."""
-        shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
-        basin.method = "mixed" if shaped else "mirrors"
-
-    @staticmethod
-    def _is_thick(solid: Solid, basin: Basin) -> bool:
-        """Where a held solid is on the floor or at a wall of the box, or on another that is held, there is no water: neither in front nor behind."""
-        others = [one for one in basin.solids if one is not solid and one.is_still and (one.closed or one.shape.ground)]
-
-        def dry(x: np.ndarray) -> np.ndarray:
-            return np.any([basin.is_outside(x), *(one.shape.contains(x) for one in others)], axis=0)  # type: ignore[no-any-return]
-
-        return solid.is_thick(REACH * basin.spacing, dry if solid.is_still else None)
-
-    def _holds_all(self, solid: Solid, basin: Basin) -> bool:
-        """Whether all of the water is within the surface of a closed shape, as in a tank: its outside is dry."""
-        low, high = solid.shape.low[:basin.dim], solid.shape.high[:basin.dim]
-        blocks = [(np.array(one.low), np.array(one.low) + one.spacing * np.array(one.n)) for one in basin.water.lattices]
-        blocks += [(shape.low, shape.high) for shape, _ in basin.fills]
-        return self._is_closed(solid.shape) and basin.box is None and all(np.all(a[:basin.dim] >= low) and np.all(b[:basin.dim] <= high) for a, b in blocks)
 
     def fill(self, basin: Basin) -> None:
         """Lattices of the bodies of water, cells beside each other over all of the scene; water keeps out of what is solid."""

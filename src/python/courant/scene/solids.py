@@ -1,7 +1,7 @@
 """Walls and rigid bodies of a scene, and the cards that they need."""
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from .wave_reader import Piston
 
 FREE = ("x", "y", "z", "rx", "ry", "rz")
-MOST_SAMPLES = 300  # of the faces of a shape
-_SPREAD = (0.7548776662466927, 0.5698402909980532)  # of evenly spread points: 1/g and 1/g2 of the g with g3 = g + 1
-_GAP = 0.07  # of the reach of a kernel, a quarter of a spacing: no water is in narrower gaps
 FIRST_WALL, FIRST_BODY, FIRST_CURVE = 12, 101, 901
 SOLIDS, HELD, BODIES, MIRRORS = 2, 3, 4, 5  # sets of parts: all, those that do not move freely, those that do, those that mirror
 _HELD_BY = {"": 0, "x": 1, "y": 2, "z": 3, "xy": 4, "yz": 5, "xz": 6, "xyz": 7}  # CON1 and CON2 of *MAT_RIGID
@@ -43,46 +40,6 @@ class Solid:
     def mirrors(self, method: str) -> bool:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
         return method in ("mirrors", "ghosts") or (method == "mixed" and self.free)
-
-    @property
-    def is_still(self) -> bool:
-        return not self.free and not self.motion
-
-    def is_oblique(self) -> bool:
-        """Whether a face of it is along no axis at the start."""
-        points = self.shape.points[self.shape.faces]
-        extents = np.ptp(points, axis=1)[:, :self.shape.dim]
-        return bool(np.any(np.min(extents, axis=1) > 1e-6 * np.max(extents)))
-
-    def is_thick(self, reach: float, dry: Callable[[np.ndarray], np.ndarray] | None = None) -> bool:
-        """Whether it is ground, or closed and all but a tenth of its surface has at least `reach` [L] of solid behind: the water on one side does not act on
-        that on the other. `dry`: which points (n, 3) no water reaches, besides those inside of it; surface in front of them does not count."""
-        if self.shape.ground:
-            return True
-        if not self.closed:
-            return False
-        points = self.shape.points[self.shape.faces]
-        if self.shape.dim == 2:
-            along = points[:, 1] - points[:, 0]
-            normals = np.column_stack([along[:, 1], -along[:, 0], np.zeros(len(along))])
-        else:
-            normals = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
-        areas = np.linalg.norm(normals, axis=1)
-        # points spread evenly over the surface, in faces at fractions of their corners
-        share = (np.arange(MOST_SAMPLES) + 0.5) / MOST_SAMPLES
-        some = np.minimum(np.searchsorted(np.cumsum(areas), areas.sum() * share), len(areas) - 1)
-        a, b = (np.arange(MOST_SAMPLES) * _SPREAD[0]) % 1, (np.arange(MOST_SAMPLES) * _SPREAD[1]) % 1
-        a, b = (a, 0 * a) if self.shape.dim == 2 else (np.where(a + b > 1, 1 - a, a), np.where(a + b > 1, 1 - b, b))
-        corners, outwards = points[some], normals[some] / areas[some, None]
-        at = corners[:, 0] + a[:, None] * (corners[:, 1] - corners[:, 0]) + b[:, None] * (corners[:, -1] - corners[:, 0])
-        if dry is not None:
-            wet = ~dry(at + _GAP * reach * outwards)
-            at, outwards = at[wet], outwards[wet]
-        thick = np.ones(len(at), dtype=bool)
-        for depth in (0.25, 0.5, 0.75, 1.0):
-            behind = at - depth * reach * outwards
-            thick &= self.shape.contains(behind) | (dry(behind) if dry is not None else False)
-        return int(thick.sum()) >= 0.9 * len(at)
 
 
 _RIGID = """\
