@@ -54,8 +54,8 @@ struct BlastOnFace {
 };
 
 /// The integral of N n dA of a node of a triangle of six nodes, corners first, then those on edges 12, 23,
-/// 31: six points, exact for polynomials of degree 4 (Dunavant 1985), as N n dA is. So one pressure on all of a
-/// closed surface has no moment. [L2]
+/// 31: six points, exact for polynomials of degree 4 (Dunavant 1985), as N n dA is. So one pressure on all of
+/// a closed surface has no moment. [L2]
 Vec area_of_node(const std::array<Vec, 6>& x, std::size_t node) {
   constexpr Real beside[2]{0.445948490915965, 0.091576213509771},  // two coordinates of a point
       weight[2]{0.223381589678011, 0.109951743655322};
