@@ -273,7 +273,7 @@ GhostArrays WallGhosts::arrays(World& world) {
   Particles& p = world.particles;
   GhostArrays a{};
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.v[k] = p.v.data(k);
-  a.V = volumes_->current(), a.m = p.m.data(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
+  a.V = volumes_->current(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
   a.h = h_, a.half_step = half_step_, a.kernel = &any_kernel(kernel_), a.first = first();
   a.squeeze = squeeze_.data(), a.volume_rate = volume_rate_.data();
   return a;
@@ -312,7 +312,7 @@ void WallGhosts::set_pressures(World& world) {
   GhostArrays a = arrays(world);
   for (int k = 0; k < 3; ++k) a.g[k] = rise_[k].data(), a.force[k] = force_[k].data();
   for (int k = 0; stress_ != nullptr && k < 6; ++k) a.tau[k] = stress_->data(k);
-  a.p = pressure_.data(), a.pressure = value_.data(), a.excess = excess_.data();
+  a.m = p.m.data(), a.p = pressure_.data(), a.pressure = value_.data(), a.excess = excess_.data();
   run(pressure_loop_, a);
   for_each(count(), [&](Index k) { pressure_[first() + k] = value_[k]; });
 }
