@@ -1,6 +1,9 @@
 #include "model/model.hpp"
 
 #include <algorithm>
+#include <iterator>
+
+#include "model/mesh/solid_edges.hpp"
 
 namespace courant {
 
@@ -44,11 +47,11 @@ std::array<Index, 10> ModelSolid::all_corners() const {
 }
 
 std::map<std::array<Index, 2>, Index> nodes_on_edges(const std::vector<ModelSolid>& solids) {
-  constexpr std::size_t ends[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
   std::map<std::array<Index, 2>, Index> out;
   for (const ModelSolid& solid : solids)
-    for (std::size_t k = 0; solid.has_nodes_on_edges() && k < std::size(ends); ++k) {
-      const auto [a, b] = std::minmax(solid.node[ends[k][0]], solid.node[ends[k][1]]);
+    for (std::size_t k = 0; solid.has_nodes_on_edges() && k < std::size(edges_of_tetrahedron); ++k) {
+      const auto& [from, to] = edges_of_tetrahedron[k];
+      const auto [a, b] = std::minmax(solid.node[from], solid.node[to]);
       out[{a, b}] = solid.node[4 + k];
     }
   return out;

@@ -5,15 +5,14 @@
 #include <limits>
 #include <span>
 
+#include "model/mesh/solid_edges.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
 
 namespace {
 
-using Edge = std::array<int, 2>;
-constexpr Edge of_hexahedron[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                                  {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+using Edge = SolidEdge;
 constexpr Edge of_tetrahedron10[] = {{0, 4}, {4, 1}, {1, 5}, {5, 2}, {2, 6}, {6, 0},
                                      {0, 7}, {7, 3}, {1, 8}, {8, 3}, {2, 9}, {9, 3}};
 constexpr Edge of_quadrilateral[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
@@ -24,7 +23,7 @@ constexpr Edge of_line[] = {{0, 1}};
 std::span<const Edge> edges_of(const ElementGroup& group) {
   if (group.corners() == 10) return of_tetrahedron10;
   if (group.corners() == 2) return of_line;
-  if (!group.segment) return of_hexahedron;
+  if (!group.segment) return edges_of_hexahedron;
   if (group.corners() == 4) return of_quadrilateral;
   return of_triangle;
 }
@@ -80,7 +79,7 @@ void CrossSection::add(const ReportedElement& element, const World& world, const
   const std::span<const Edge> edges = edges_of(group);
   const std::array<int, 8> hexahedron = group.hexahedron();
   const auto corner = [&](int end) {
-    return edges.data() == of_hexahedron ? hexahedron[static_cast<std::size_t>(end)] : end;
+    return edges.data() == edges_of_hexahedron ? hexahedron[static_cast<std::size_t>(end)] : end;
   };
   for (const Edge& edge : edges) {
     const int c = corner(edge[0]), d = corner(edge[1]);

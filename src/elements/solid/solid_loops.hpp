@@ -40,7 +40,7 @@ struct SolidControl {
   int hourglass = 2;
   bool stiff() const { return hourglass >= 4; }
   Real QM = 0.1, Q1 = 1.5, Q2 = 0.06;
-  Real MU = 0;  ///< dynamic viscosity of a fluid, which the stable step heeds [M/LT]
+  Real MU = 0;  ///< dynamic viscosity of a fluid, which limits the stable step [M/LT]
   /// Of the material at rest, for IHQ 6: Young's modulus, shear modulus, E/(1 - nu^2) [M/LT2]; nu [-]
   Real E = 0, G = 0, plate_modulus = 0, nu = 0;
   /// Of the deviation of tr D at a point from its mean over the element, what the law sees, in formulations

@@ -57,7 +57,7 @@ class SolidPressure {
   Faults complete(const ElementBlock& block, const SolidState& state, SolidScratch& scratch,
                   Scratch& own) const;
 
-  // The same of elements with several points and one pressure, whose deviators are told apart:
+  // The same of elements with several points and one pressure, whose deviators differ:
   /// What begins a step. `pressure`: of the block; energy and memory of all elements; tr D, of the block.
   struct Means {
     const Real *pressure, *energy;

@@ -2,30 +2,17 @@
 
 #include <algorithm>
 
+#include "laws/failure/failing_law.hpp"
 #include "parallel/parallel.hpp"
 
 namespace courant {
 
 namespace {
 
-class DamagedPlasticity : public StrengthLaw {
+class DamagedPlasticity : public FailingLaw {
  public:
   DamagedPlasticity(std::shared_ptr<StrengthLaw> of, PlasticDamage damage)
-      : of_(std::move(of)), damage_(std::move(damage)) {
-    ro = of_->ro;
-    for (const HistoryVariable& h : of_->history()) kept_ += static_cast<std::size_t>(h.components);
-  }
-  Real bulk_modulus() const override { return of_->bulk_modulus(); }
-  Real shear_modulus() const override { return of_->shear_modulus(); }
-  std::vector<HistoryVariable> history() const override {
-    auto out = of_->history();
-    out.push_back({"damage", "-"});
-    out.push_back({"failure_ratio", "-"});
-    return out;
-  }
-  Real failure_limit() const override { return 1; }
-  std::string failure_variable() const override { return "failure_ratio"; }
-  LeastStep least_step() const override { return of_->least_step(); }
+      : FailingLaw(std::move(of), {"damage", "-"}), damage_(std::move(damage)) {}
 
   void update(const PointBlock& block) const override {
     around(block, [this](const PointBlock& own) { of_->update(own); });
@@ -44,9 +31,7 @@ class DamagedPlasticity : public StrengthLaw {
       factor[i] = damage[i] < 1 ? 1 / (1 - damage[i]) : 0;
     }
     scale(block, factor);
-    PointBlock own = block;
-    own.history = block.history.first(kept_);
-    step(own);
+    step(of_law(block));
     for (Index i = 0; i < block.count; ++i) {
       if (plastic[i] > before[i]) {
         const auto& s = block.stress;
@@ -64,9 +49,7 @@ class DamagedPlasticity : public StrengthLaw {
       for (Index i = 0; i < block.count; ++i) stress[i] *= factor[i];
   }
 
-  std::shared_ptr<StrengthLaw> of_;
   PlasticDamage damage_;
-  std::size_t kept_ = 0;
 };
 
 }  // namespace

@@ -3,29 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "laws/failure/failing_law.hpp"
+
 namespace courant {
 
 namespace {
 
-/// Keeps the strain beside what the law keeps, and how near it is to failure: 1.
-class ThinningFailure : public StrengthLaw {
+/// Keeps the strain beside what the law keeps.
+class ThinningFailure : public FailingLaw {
  public:
   ThinningFailure(std::shared_ptr<StrengthLaw> of, const ThinningLimits& limits)
-      : of_(std::move(of)), limits_(limits) {
-    ro = of_->ro;
-    for (const HistoryVariable& h : of_->history()) kept_ += static_cast<std::size_t>(h.components);
-  }
-  Real bulk_modulus() const override { return of_->bulk_modulus(); }
-  Real shear_modulus() const override { return of_->shear_modulus(); }
-  std::vector<HistoryVariable> history() const override {
-    auto out = of_->history();
-    out.push_back({"strain", "-", 6});
-    out.push_back({"failure_ratio", "-"});
-    return out;
-  }
-  Real failure_limit() const override { return 1; }
-  std::string failure_variable() const override { return "failure_ratio"; }
-  LeastStep least_step() const override { return of_->least_step(); }
+      : FailingLaw(std::move(of), {"strain", "-", 6}), limits_(limits) {}
 
   /// In solids thickness has no meaning: only the law's own limit counts.
   void update(const PointBlock& block) const override {
@@ -57,11 +45,6 @@ class ThinningFailure : public StrengthLaw {
   }
 
  private:
-  PointBlock of_law(const PointBlock& block) const {
-    PointBlock out = block;
-    out.history = block.history.first(kept_);
-    return out;
-  }
   Real plastic_share(const PointBlock& block, Index i) const {
     return block.history[0][i] / of_->failure_limit();
   }
@@ -70,9 +53,7 @@ class ThinningFailure : public StrengthLaw {
     kept = std::max(kept, ratio);
   }
 
-  std::shared_ptr<StrengthLaw> of_;
   ThinningLimits limits_;
-  std::size_t kept_ = 0;
 };
 
 }  // namespace

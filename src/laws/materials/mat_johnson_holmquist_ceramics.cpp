@@ -17,28 +17,14 @@ struct MatJohnsonHolmquistCeramics : MatJohnsonHolmquistCeramicsFields {
 };
 
 /// JH-2: a strength between that of intact and of broken ceramic, and pressure by bulking where it breaks.
-class Ceramic : public StrengthLaw {
+class Ceramic : public BrittleLaw {
  public:
   explicit Ceramic(const MatJohnsonHolmquistCeramics& card)
-      : card_(card), pressure_{card.k1, card.k2, card.k3}, elastic_limit_(1.5 * (card.hel - card.phel)) {
-    ro = card.ro;
-  }
+      : BrittleLaw(card.ro, card.g, card.fs, {"bulking_pressure", "M/LT2"}),
+        card_(card),
+        pressure_{card.k1, card.k2, card.k3},
+        elastic_limit_(1.5 * (card.hel - card.phel)) {}
   Real bulk_modulus() const override { return card_.k1; }
-  Real shear_modulus() const override { return card_.g; }
-  bool in_sheets() const override { return false; }
-  std::vector<HistoryVariable> history() const override {
-    return {{"plastic_strain", "-"},
-            {"logarithmic_volume", "-"},
-            {"damage", "-"},
-            {"bulking_pressure", "M/LT2"},
-            {"torn", "-"}};
-  }
-  Real failure_limit() const override {
-    if (card_.fs < 0) return 1;
-    return card_.fs > 0 ? card_.fs : std::numeric_limits<Real>::infinity();
-  }
-  std::string failure_variable() const override { return card_.fs < 0 ? "torn" : "plastic_strain"; }
-
   void update(const PointBlock& block) const override {
     PlasticTrial trial;
     const auto& D = block.rate;

@@ -27,31 +27,15 @@ struct MatJohnsonHolmquistConcrete : MatJohnsonHolmquistConcreteFields {
 
 /// Concrete that is crushed for good: its pressure is elastic up to PC, then straight to PL, then that of the
 /// dense material; back it goes by a slope between.
-class Concrete : public StrengthLaw {
+class Concrete : public BrittleLaw {
  public:
   explicit Concrete(const MatJohnsonHolmquistConcrete& card)
-      : card_(card),
+      : BrittleLaw(card.ro, card.g, card.fs, {"largest_compression", "-"}),
+        card_(card),
         dense_(card.dense()),
         elastic_(card.pc / card.uc),
-        locks_(card.ul + card.locked() * (1 + card.ul)) {
-    ro = card.ro;
-  }
+        locks_(card.ul + card.locked() * (1 + card.ul)) {}
   Real bulk_modulus() const override { return elastic_; }
-  Real shear_modulus() const override { return card_.g; }
-  bool in_sheets() const override { return false; }
-  std::vector<HistoryVariable> history() const override {
-    return {{"plastic_strain", "-"},
-            {"logarithmic_volume", "-"},
-            {"damage", "-"},
-            {"largest_compression", "-"},
-            {"torn", "-"}};
-  }
-  Real failure_limit() const override {
-    if (card_.fs < 0) return 1;
-    return card_.fs > 0 ? card_.fs : std::numeric_limits<Real>::infinity();
-  }
-  std::string failure_variable() const override { return card_.fs < 0 ? "torn" : "plastic_strain"; }
-
   void update(const PointBlock& block) const override {
     PlasticTrial trial;
     const auto& D = block.rate;

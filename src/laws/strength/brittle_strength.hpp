@@ -3,6 +3,10 @@
 // change of volume, a strength that depends on it, and damage by plastic flow.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/strength.hpp"
@@ -39,5 +43,29 @@ inline Real brittle_speed(const PointBlock& block, Index i, Real slope, Real mu,
   const Real stiffness = std::max(1 + mu, Real(1)) * slope + 4 * G / 3;
   return std::sqrt(stiffness / (ro * (1 + (block.compression ? block.compression[i] : 0))));
 }
+
+/// Its history: plastic strain, logarithm of the volume, damage, `fourth`, and 1 where it tore.
+class BrittleLaw : public StrengthLaw {
+ public:
+  /// `fs`: plastic strain at failure, > 0 [-]; < 0: it fails where it tears; 0: it does not.
+  BrittleLaw(Real density, Real G, Real fs, HistoryVariable fourth)
+      : G_(G), fs_(fs), fourth_(std::move(fourth)) {
+    ro = density;
+  }
+  Real shear_modulus() const override { return G_; }
+  bool in_sheets() const override { return false; }
+  std::vector<HistoryVariable> history() const override {
+    return {{"plastic_strain", "-"}, {"logarithmic_volume", "-"}, {"damage", "-"}, fourth_, {"torn", "-"}};
+  }
+  Real failure_limit() const override {
+    if (fs_ < 0) return 1;
+    return fs_ > 0 ? fs_ : std::numeric_limits<Real>::infinity();
+  }
+  std::string failure_variable() const override { return fs_ < 0 ? "torn" : "plastic_strain"; }
+
+ private:
+  Real G_, fs_;
+  HistoryVariable fourth_;
+};
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 // Solid elements.
 #include <fmt/format.h>
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "model/mesh/mesh_cards.hpp"
+#include "model/mesh/solid_edges.hpp"
 #include "model/model_builder.hpp"
 
 namespace courant {
@@ -91,9 +93,6 @@ void ModelBuilder::check_solids() {
 void ModelBuilder::warn_of_loose_edges() {
   using Edge = std::pair<Index, Index>;
   const auto edge = [](Index a, Index b) { return Edge(std::min(a, b), std::max(a, b)); };
-  constexpr std::size_t of_tetrahedron[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-  constexpr std::size_t of_hexahedron[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                                                {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   struct Middle {
     Index node = -1;
     std::size_t solid = 0;
@@ -110,8 +109,8 @@ void ModelBuilder::warn_of_loose_edges() {
   };
   for (std::size_t k = 0; k < model_.solids.size(); ++k) {
     const ModelSolid& solid = model_.solids[k];
-    for (std::size_t e = 0; solid.has_nodes_on_edges() && e < 6; ++e) {
-      const auto& [a, b] = of_tetrahedron[e];
+    for (std::size_t e = 0; solid.has_nodes_on_edges() && e < std::size(edges_of_tetrahedron); ++e) {
+      const auto& [a, b] = edges_of_tetrahedron[e];
       const auto [known, is_new] =
           middles.try_emplace(edge(solid.node[a], solid.node[b]), Middle{solid.node[4 + e], k});
       if (!is_new && known->second.node != solid.node[4 + e]) note(known->second, k);
@@ -120,7 +119,7 @@ void ModelBuilder::warn_of_loose_edges() {
   for (std::size_t k = 0; !middles.empty() && k < model_.solids.size(); ++k) {
     if (model_.solids[k].has_nodes_on_edges()) continue;
     const auto corner = model_.solids[k].corners();
-    for (const auto& [a, b] : of_hexahedron)
+    for (const auto& [a, b] : edges_of_hexahedron)
       if (const auto found = middles.find(edge(corner[a], corner[b]));
           corner[a] != corner[b] && found != middles.end())
         note(found->second, k);

@@ -12,6 +12,7 @@ from .explain import explain_basin
 from .model import Model, Part, PlaceExpression, Plate, Variables, Vector
 from .numbers import number_text
 from .placeholders import substitute
+from .requests import REQUESTS
 from .solids import Solid, cards_of_solids, number_parts, part_of
 from .openings import Inlet, Outlet, add_openings, with_outlets
 from .structures import Structure, add_structures
@@ -52,16 +53,7 @@ $ Artificial viscosity: Q1 is the quadratic coefficient, off, Q2 the linear one
 *HOURGLASS
 $#    hgid       ihq        qm       ibq        q1        q2
          1         0         0         0   1.0e-20${q:10}
-*DATABASE_BINARY_D3PLOT
-$#      dt
-${output:10}
-*DATABASE_GLSTAT
-$#      dt
-${output / 10:10}
-*DATABASE_MATSUM
-$#      dt
-${output / 10:10}
-"""
+""" + REQUESTS
 
 _GRAVITY = """\
 $ Gravity: LOAD_BODY gives the acceleration of the base, so +g pushes the water down

@@ -9,6 +9,7 @@ from ..yaml_map import Node, is_list
 from .model import Model, Part
 from .numbers import number_text
 from .placeholders import substitute
+from .requests import REQUESTS
 
 if TYPE_CHECKING:
     from .reader import SceneReader
@@ -37,16 +38,7 @@ $#   secid      cslh      hmin      hmax
 *HOURGLASS
 $#    hgid       ihq        qm       ibq        q1        q2
          1         0         0         0       1.0       0.5
-*DATABASE_BINARY_D3PLOT
-$#      dt
-${output:10}
-*DATABASE_GLSTAT
-$#      dt
-${output / 10:10}
-*DATABASE_MATSUM
-$#      dt
-${output / 10:10}
-"""
+""" + REQUESTS
 
 _GAS = """\
 *MAT_NULL
