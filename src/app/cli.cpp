@@ -46,9 +46,10 @@ struct Call {
 
 /// Words of calls that the Python package answers, which are looked at here alone for mistakes.
 struct PythonCall {
-  std::string input, dir, compare, page;
+  std::string input, dir, compare, page, field;
   std::vector<std::string> only, loads, params;
-  int jobs = 0;
+  int jobs = 0, state = -1;
+  Real at = 0;
   bool fresh = false;
 };
 
@@ -288,7 +289,7 @@ int command_line(int argc, char** argv) {
   keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
   keywords->add_flag("--cannot-do", call.cannot_do, "all that is refused, as docs/cannot_do.md");
 
-  PythonCall python;  // what these three do, the package in src/python does
+  PythonCall python;  // the package in src/python does it
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
   generate->add_option("SCENE", python.input, "scene.yaml")->required();
   generate->add_option("-o,--output", python.page, "deck to write")->required();
@@ -313,6 +314,14 @@ int command_line(int argc, char** argv) {
   auto* report = app.add_subcommand("report", "one HTML page on a run, or on two side by side");
   report->add_option("DIR", places, "folder of the run, or of two")->expected(1, 2)->required();
   report->add_option("-o,--output", python.dir, "FILE: the page; DIR/report.html if not given");
+
+  auto* view =
+      app.add_subcommand("view", "a state of a run, or the first of a deck, in a window or a picture");
+  view->add_option("DIR", python.input, "folder of the run, keyword deck, or scene.yaml")->required();
+  view->add_option("-o,--output", python.dir, "FILE: a picture instead of a window: PNG, PDF, SVG");
+  view->add_option("--state", python.state, "number of the state, from 0; -1, the last, if not given");
+  view->add_option("--at", python.at, "the state nearest to this time");
+  view->add_option("--field", python.field, "what colours it; speed if not given");
 
   auto* verify = app.add_subcommand("verify", "run a suite of cases: errors against run time, and stability");
   verify->add_option("SUITE", python.input, "suite.yaml")->required();
@@ -367,7 +376,7 @@ int command_line(int argc, char** argv) {
       return exit_input;
     }
   const bool of_scene = (*run_ || *check) && is_scene(call.deck);
-  if (*generate || *post || *report || *verify || of_scene) {
+  if (*generate || *post || *report || *verify || *view || of_scene) {
     print_error(fmt::format("error: {}\n", become_python_program(words)));
     return exit_other;
   }

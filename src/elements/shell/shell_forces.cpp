@@ -384,9 +384,12 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
   [[noreturn]] void stop_for_thickness(Index e, const Clock& clock) const {
     const ReadsForMessage unchecked;
-    throw RunError(fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}",
-                               group_.id[e], part_id_, state_.thickness[e], clock.t, clock.cycle),
-                   std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element);
+    throw RunError(
+        fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}", group_.id[e],
+                    part_id_, state_.thickness[e], clock.t, clock.cycle),
+        std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element,
+        "it has been drawn to nothing: let it fail (*MAT_ADD_EROSION, FAIL of its material), or keep "
+        "its thickness (ISTUPD 0 of *CONTROL_SHELL)");
   }
 
   /// What is at a point through the thickness.

@@ -25,7 +25,12 @@ void stop_for_volume(const ElementGroup& group, Id part, const StableStep& found
                       ? std::string("a volume that is no number")
                       : fmt::format("turned inside out (volume {:.4g} of its first)", found.least_volume),
                   clock.t, clock.cycle),
-      std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element);
+      std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element,
+      std::isnan(found.least_volume)
+          ? ""
+          : "the mesh there is crushed or sheared too far: let elements be deleted before (ERODE of "
+            "*CONTROL_TIMESTEP, *MAT_ADD_EROSION), make hourglass control stiffer (IHQ 5 or 6), take a finer "
+            "mesh or ELFORM 2, and check what presses on it");
 }
 
 }  // namespace courant
