@@ -16,6 +16,7 @@ from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
+from .structure_checks import check_structures
 from .structure_reader import read_structures
 from .water_checks import check_overlaps, check_piston, positions
 from .wave_reader import Piston, check_reach, read_waves
@@ -66,6 +67,7 @@ class BasinReader(ShapeReader):
         if self.diagnostics.errors == before:
             self.fill(basin)
             self.check_solids(basin)
+            check_structures(basin, self.diagnostics)
             self.check_water(basin)
             self.check_bodies_of_the_plane(basin, joined_names(self, root))
         self.complete = self.diagnostics.errors == before
