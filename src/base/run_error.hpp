@@ -5,8 +5,7 @@
 
 namespace courant {
 
-/// What kind of fault stops a run. Of all but the first the state of the scene may be the cause, so advice
-/// looks at it.
+/// What kind of fault stops a run. Advice depends on the state of the scene but for the first.
 enum class StopCause {
   other,       ///< the text says it all
   not_finite,  ///< NaN or infinity in the state
