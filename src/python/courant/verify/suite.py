@@ -8,13 +8,14 @@ from typing import Any
 
 from ..diagnostics import Diagnostics
 from ..yaml_map import Node, YamlMap, as_flag, is_map, is_scalar, load_yaml, scalar_text
+from .builders import Builder
 from .model import Case, Limit, Observation, Parameters, Reference, Setting, Stability, Suite
 from .reference import read_table
 from .registry import KINDS, norm, reduction, take
 from .suite_check import CheckedExpression, check_case, check_observation
 
 _COLUMNS = ("csv_x", "csv_y", "scale_x", "scale_y", "offset_x", "offset_y")
-_OF_CASE = ("name", "title", "about", "scene", "deck", "parameters", "resolution", "resolutions", "size", "settings", "observations", "stability",
+_OF_CASE = ("name", "title", "about", "scene", "deck", "build", "parameters", "resolution", "resolutions", "size", "settings", "observations", "stability",
             "time_limit", "picture_of", "picture_title", "picture_at", "picture_where")
 _OF_OBSERVATION = ("name", "title", "unit", "kind", "of", "where", "along", "bins", "reduce", "empty", "take", "align", "from", "to", "at", "x", "bed", "reference",
                    "norm", "scale", "bound", "bound_settings", "least_order")
@@ -106,9 +107,9 @@ class _CaseReader:
         map_ = self.map
         map_.allow(*_OF_CASE)
         name = _word(map_, "[A-Za-z0-9_-]+", "letters, digits, _ and -")
-        out = Case(name, map_.text("title") or name, map_.text("about"), self.path(map_, "scene"), self.path(map_, "deck"), where=map_.where())
-        if is_map(map_.node) and map_.has("scene") == map_.has("deck"):
-            map_.error(map_.node, "a case has either a 'scene' or a 'deck'")
+        out = Case(name, map_.text("title") or name, map_.text("about"), self.path(map_, "scene"), self.path(map_, "deck"), self.builder(), where=map_.where())
+        if is_map(map_.node) and sum(map_.has(key) for key in ("scene", "deck", "build")) != 1:
+            map_.error(map_.node, "a case has one of 'scene', 'deck' and 'build'")
         out.parameters, out.resolution, out.resolutions = _parameters(map_), map_.text("resolution"), _texts(map_, "resolutions")
         out.time_limit, out.settings = map_.positive("time_limit", time_limit), self.settings()
         out.observations = [self.observation(map_.element(node, "observation")) for node in map_.list("observations")]
@@ -121,12 +122,23 @@ class _CaseReader:
         check_case(map_, out, self.noted, self.diagnostics)
         return out
 
+    def builder(self) -> Builder | None:
+        text = self.map.text("build")
+        if not text:
+            return None
+        name, _, function = text.rpartition(":")
+        file = Path(os.path.normpath(self.folder / name))
+        if not name or not function.isidentifier() or not file.is_file():
+            self.map.error(_at(self.map, "build"), f"'case.build': expected FILE.py:FUNCTION with a file that is there, got '{text}'", "paths count from the folder of the suite")
+            return None
+        return Builder(file, function)
+
     def settings(self) -> list[Setting]:
         out = []
         for entry in (self.map.element(node, "setting") for node in self.map.list("settings")):
             entry.allow("name", "parameters", "resolutions", "keywords")
-            if entry.has("keywords") and not self.map.has("scene"):
-                entry.error(_at(entry, "keywords"), "'keywords' belong to a case with a 'scene'", "write the cards into the deck")
+            if entry.has("keywords") and self.map.has("deck"):
+                entry.error(_at(entry, "keywords"), "'keywords' belong to a case with a 'scene' or 'build'", "write the cards into the deck")
             out.append(Setting(entry.text("name", required=True), _parameters(entry), _texts(entry, "resolutions"), entry.text("keywords")))
         return out or [Setting("default")]
 
