@@ -12,14 +12,14 @@ def _mesh(deck: DeckBuilder, element: str, size: float, skew: float, offset: flo
     kind, elform = element.split()
     dimensions = {"SOLID": 3, "SHELL": 2, "BEAM": 1}[kind]
 
-    def place(u: np.ndarray) -> np.ndarray:
+    def mapped(u: np.ndarray) -> np.ndarray:
         x = np.zeros((len(u), 3))
         x[:, : u.shape[1]] = u
         inner = np.all(np.abs(u - 0.5) < 1e-9, axis=1)  # the node in the middle
         x[inner, : u.shape[1]] += 0.24 * skew * np.array([1.0, -0.7, 0.4])[: u.shape[1]]
         return size * x + offset
 
-    of = grid([pieces] * dimensions if kind != "BEAM" else [4 * pieces], place)
+    of = grid([pieces] * dimensions if kind != "BEAM" else [4 * pieces], mapped)
     if kind == "SOLID":
         deck.card("*SECTION_SOLID", [1, int(elform)])
     elif kind == "SHELL":

@@ -34,7 +34,7 @@ def settle(deck: DeckBuilder, omega: float, number: int = 90) -> float:
     return end
 
 
-def pull(deck: DeckBuilder, nodes: np.ndarray, direction: int, force: float, weights: np.ndarray | None = None) -> None:
+def load(deck: DeckBuilder, nodes: np.ndarray, direction: int, force: float, weights: np.ndarray | None = None) -> None:
     """A force in all, shared by nodes, by curve 90; `direction`: 1, 2, 3."""
     share = np.full(len(nodes), 1 / len(nodes)) if weights is None else weights / weights.sum()
     deck.card("*LOAD_NODE_POINT", *([int(n), direction, 90, float(force * w)] for n, w in zip(nodes, share)))
@@ -73,7 +73,7 @@ def cantilever(n: int = 16, kind: str = "SOLID", elform: int = 1, ihq: int = 0, 
         clamped, end, weights = ids[mesh.where(0, 0)], ids[mesh.where(0, 1)], np.outer(of_an_edge(across), of_an_edge(across)).ravel()
     deck.hold(clamped, "xyzXYZ" if kind != "SOLID" else "xyz")
     finish = settle(deck, omega)
-    pull(deck, end, 3, P, weights)
+    load(deck, end, 3, P, weights)
     return deck.history([1], finish / 200)
 
 
@@ -84,16 +84,16 @@ def cook(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int =
     part(deck, "membrane", ihq, qm)
     deck.card("*MAT_ELASTIC", [1, 1.0, 1.0, 1 / 3]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
 
-    def place(u: np.ndarray) -> np.ndarray:
+    def mapped(u: np.ndarray) -> np.ndarray:
         low, high = 44 * u[:, 0], 44 + 16 * u[:, 0]
         return np.column_stack([48 * u[:, 0], low + u[:, 1] * (high - low), np.zeros(len(u))])
 
-    mesh = grid([n, n], place)
+    mesh = grid([n, n], mapped)
     ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(1, 0.5)])
     clamped = mesh.where(0, 0)
     deck.hold(ids, "zXY").hold(ids[clamped], "xyZ")
     end = settle(deck, 0.011)
-    pull(deck, ids[mesh.where(0, 1)], 2, 1e-3, of_an_edge(n))
+    load(deck, ids[mesh.where(0, 1)], 2, 1e-3, of_an_edge(n))
     return deck.history([1], end / 200)
 
 
@@ -120,18 +120,18 @@ def hemisphere(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc:
     part(deck, "shell", ihq, qm)
     deck.card("*MAT_ELASTIC", [1, rho, 6.825e7, 0.3]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
 
-    def place(u: np.ndarray) -> np.ndarray:
+    def mapped(u: np.ndarray) -> np.ndarray:
         around, up = 0.5 * np.pi * u[:, 0], np.radians(72) * u[:, 1]
         return R * np.column_stack([np.cos(around) * np.cos(up), np.sin(around) * np.cos(up), np.sin(up)])
 
-    mesh = grid([n, n], place)
+    mesh = grid([n, n], mapped)
     ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(0, 0), mesh.nearest(1, 0)])
     deck.hold(ids[mesh.where(0, 0)], "yXZ").hold(ids[mesh.where(0, 1)], "xYZ")
     first, second = ids[mesh.nearest(0, 0)], ids[mesh.nearest(1, 0)]
     deck.hold(np.array([ids[mesh.nearest(0.5, 1)]]), "z")
     end = settle(deck, 2.3)
-    pull(deck, np.array([first]), 1, 1.0)
-    pull(deck, np.array([second]), 2, -1.0)
+    load(deck, np.array([first]), 1, 1.0)
+    load(deck, np.array([second]), 2, -1.0)
     return deck.history([1, 2], end / 200)
 
 
@@ -144,17 +144,17 @@ def twisted(n: int = 24, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm:
     deck.card("*MAT_ELASTIC", [1, 1.0, 2.9e7, 0.22]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
     across = max(n // 6, 1)
 
-    def place(u: np.ndarray) -> np.ndarray:
+    def mapped(u: np.ndarray) -> np.ndarray:
         turn = 0.5 * np.pi * u[:, 0]
         y, z = w * (u[:, 1] - 0.5), t * (u[:, 2] - 0.5) if u.shape[1] == 3 else np.zeros(len(u))
         return np.column_stack([L * u[:, 0], y * np.cos(turn) - z * np.sin(turn), y * np.sin(turn) + z * np.cos(turn)])
 
-    mesh = grid([n, across] if kind == "SHELL" else [n, across, 2], place)
+    mesh = grid([n, across] if kind == "SHELL" else [n, across, 2], mapped)
     ids = deck.mesh(kind, 1, mesh, [mesh.nearest(*([1, 0.5] if kind == "SHELL" else [1, 0.5, 0.5]))])
     deck.hold(ids[mesh.where(0, 0)], "xyzXYZ" if kind == "SHELL" else "xyz")
     end = settle(deck, 10.0)
     edge = of_an_edge(across)
-    pull(deck, ids[mesh.where(0, 1)], direction, 1.0, edge if kind == "SHELL" else np.outer(of_an_edge(2), edge).ravel())
+    load(deck, ids[mesh.where(0, 1)], direction, 1.0, edge if kind == "SHELL" else np.outer(of_an_edge(2), edge).ravel())
     return deck.history([1], end / 200)
 
 
@@ -182,11 +182,11 @@ def taylor(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1) -> DeckBu
     part(deck, "rod", ihq, qm)
     deck.card("*MAT_PLASTIC_KINEMATIC", [1, 8930.0, 117e9, 0.35, 400e6, 100e6, 1.0])
 
-    def place(u: np.ndarray) -> np.ndarray:
+    def mapped(u: np.ndarray) -> np.ndarray:
         x, y = 2 * u[:, 0] - 1, 2 * u[:, 1] - 1  # a square to a disc
         return np.column_stack([R * x * np.sqrt(1 - y**2 / 2), R * y * np.sqrt(1 - x**2 / 2), L * u[:, 2]])
 
-    mesh = grid([n, n, int(round(4.5 * n))], place)
+    mesh = grid([n, n, int(round(4.5 * n))], mapped)
     ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(0.5, 0.5, 1), mesh.nearest(1, 0.5, 0)])
     deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.0, 0.0, -227.0] for i in ids))
     deck.card("*RIGIDWALL_PLANAR", [0], [0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
@@ -201,11 +201,11 @@ def tube(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1, nu: float =
     part(deck, "tube", ihq, qm)
     deck.card("*MAT_ELASTIC", [1, rho, E, nu])
 
-    def place(u: np.ndarray) -> np.ndarray:
+    def mapped(u: np.ndarray) -> np.ndarray:
         r, turn = a + (b - a) * u[:, 0], 0.5 * np.pi * u[:, 1]
         return np.column_stack([r * np.cos(turn), r * np.sin(turn), 0.1 * u[:, 2]])
 
-    mesh = grid([n, 2 * n, 1], place)
+    mesh = grid([n, 2 * n, 1], mapped)
     ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(0, 0, 0)])
     deck.hold(ids, "z").hold(ids[mesh.where(1, 0)], "y").hold(ids[mesh.where(1, 1)], "x")
     end = settle(deck, float(np.sqrt(E / rho) / b))

@@ -16,7 +16,7 @@ from .model import Variables
 
 
 class BuildFault(Exception):
-    """A builder that cannot be called; the text tells why."""
+    """A builder that cannot be called; the text says why."""
 
 
 @lru_cache
