@@ -165,6 +165,31 @@ def _jntforc(lines: Lines, states: AsciiStates) -> None:
     _labelled(lines, states, "joint ID")
 
 
+_OF_TRACER = ("x", "y", "z", "vx", "vy", "vz", "sx", "sy", "sz", "sxy", "syz", "szx", "efp", "rho", "rvol", "active")
+
+
+@ascii_kind("trhist", lambda line: line.split() == ["efp", "rho", "rvol", "active"])
+def _trhist(lines: Lines, states: AsciiStates) -> None:
+    """The file has no ids: tracers count from 1 on."""
+    head, row, tracer = True, 0, 0
+    for line in lines:
+        if head or not line.strip():
+            head = head and line.split() != ["efp", "rho", "rvol", "active"]
+            continue
+        values = Text(line).numbers(13)
+        if len(values) == 1 and row == 0:
+            states.begin(Text(line).time(13))
+            tracer = 1
+            continue
+        if len(values) != 4 or tracer == 0:
+            raise AsciiFault("a tracer has rows of four numbers")
+        for name, value in zip(_OF_TRACER[4 * row : 4 * row + 4], values, strict=True):
+            states.put(AsciiKey(name, tracer), value)
+        row, tracer = (row + 1) % 4, tracer + (row == 3)
+    if row:
+        raise AsciiFault("the file is cut off: its last tracer lacks rows")
+
+
 _OF_WELD = ("axial", "shear", "failure", "length", "moment", "torsion")
 
 

@@ -73,6 +73,11 @@ _DIMENSIONS = [
     ("swforc", "failure", "T"),
     ("swforc", "length", "L"),
     ("swforc", "torsion", _ENERGY),
+    *(("trhist", name, "-") for name in ("efp", "rvol", "active")),
+    ("trhist", "rho", "M/L3"),
+    *(("trhist", name, "L/T") for name in ("vx", "vy", "vz")),
+    *(("trhist", name, "M/LT2") for name in ("sx", "sy", "sz", "sxy", "syz", "szx")),
+    *(("trhist", name, "L") for name in "xyz"),
 ]
 # of what a name holds: dimension, and that of rotations
 _HELD = {

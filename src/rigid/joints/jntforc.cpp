@@ -14,6 +14,24 @@ const RegisterKeyword<DatabaseJntforc> database_jntforc{history_interval<Databas
     "DATABASE_JNTFORC",
     "interval of jntforc: force and moment of each joint on its second body, at its place there")};
 
+std::vector<JointForce> joints_of(const World& world) {
+  std::vector<JointForce> out;
+  for (const auto* pass : world.passes.all<const JointReporter>()) pass->report_joints(out);
+  return out;
+}
+
+void jntforc_numbers(const World& world, const Clock&, HistoryNumbers& to) {
+  using J = JointForce;
+  const std::vector<J> joints = joints_of(world);
+  HistoryRows(to, "joints", joints, &J::id, "joints")
+      .title(&J::title)
+      .fixed("local", [](const J&) { return 0; })
+      .vector("{}_force", &J::force, "ML/T2")
+      .vector("{}_moment", &J::moment, "ML2/T2")
+      .real("resultant_force", [](const J& j) { return j.force.norm(); })
+      .real("resultant_moment", [](const J& j) { return j.moment.norm(); });
+}
+
 const RegisterAsciiHistory jntforc{
     {.name = "jntforc",
      .interval = interval_in<DatabaseJntforc>,
@@ -22,9 +40,7 @@ const RegisterAsciiHistory jntforc{
        const auto line = [&](const char* name, Real value) {
          out += fmt::sprintf(" %s%s%15.6E\n", name, std::string(30 - std::string(name).size(), '.'), value);
        };
-       std::vector<JointForce> joints;
-       for (const auto* pass : world.passes.all<const JointReporter>()) pass->report_joints(joints);
-       for (const JointForce& joint : joints) {
+       for (const JointForce& joint : joints_of(world)) {
          out += "\n";
          line("time", clock.t);
          out += fmt::sprintf(" joint ID......................%15d\n", joint.id);
@@ -34,7 +50,9 @@ const RegisterAsciiHistory jntforc{
          line("resultant moment", joint.moment.norm());
        }
        return out;
-     }}};
+     },
+     .numbers = jntforc_numbers,
+     .binary = binary_in<DatabaseJntforc>}};
 
 }  // namespace
 
