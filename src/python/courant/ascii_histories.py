@@ -83,7 +83,7 @@ _DIMENSIONS = [
 _HELD = {
     "spcforc": [("moment", _ENERGY, _ENERGY), ("", _FORCE, _FORCE)],
     "sphout": [("sig-", "M/LT2", "M/LT2"), ("eps-", "-", "-")],
-    "elout": [("sig-", "M/LT2", "M/LT2")],
+    "elout": [("sig-", "M/LT2", "M/LT2"), ("eps-", "-", "-")],
     "rbdout": [
         ("coordinates", "L", "L"),
         ("displacements", "L", "-"),
