@@ -75,7 +75,7 @@ std::filesystem::path whole_path(const std::string& file) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(file, unreadable), unreadable);
 }
 
-/// Files that are read in place of others: FILE=TEXT.
+/// Files that are read instead of others: FILE=TEXT.
 bool add_texts(const std::vector<std::string>& words, ReadOptions& out) {
   std::map<std::string, std::string> texts;
   if (!words.empty() && !parse_pairs("--text", "FILE=TEXT", words, texts)) return false;
@@ -305,7 +305,7 @@ int command_line(int argc, char** argv) {
   add_case(check);
   add_load(check);
   check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
-  check->add_option("--text", call.texts, "FILE=TEXT: reads the file TEXT in place of FILE, as editors need it")
+  check->add_option("--text", call.texts, "FILE=TEXT: reads the file TEXT instead of FILE, as editors need it")
       ->allow_extra_args(false);
   check->add_flag("--json", call.json, "the report and its messages for programs, on standard output");
 

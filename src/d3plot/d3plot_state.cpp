@@ -79,13 +79,13 @@ void D3plotModel::find_sources(const World& world) {
 }
 
 void D3plotModel::find_springs(const World& world) {
-  std::unordered_map<Id, std::size_t> place;
+  std::unordered_map<Id, std::size_t> row_of;
   for (std::size_t k = 0; k < mesh_.beams.size(); ++k)
-    if (mesh_.beams[k].spring) place.emplace(mesh_.beams[k].id, k);
+    if (mesh_.beams[k].spring) row_of.emrow_of(mesh_.beams[k].id, k);
   for (const auto* reporter : world.passes.all<const SpringReporter>()) {
     const ElementGroup& group = reporter->spring_group();
     for (Index e = 0; e < group.size(); ++e)
-      if (const auto at = place.find(group.id[e]); at != place.end())
+      if (const auto at = row_of.find(group.id[e]); at != row_of.end())
         beams_[at->second] = {nullptr, e, reporter};
   }
 }

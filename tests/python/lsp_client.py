@@ -27,7 +27,7 @@ class Client:
         threading.Thread(target=self._read, daemon=True).start()
         threading.Thread(target=self._listen, daemon=True).start()
         self.capabilities = self.ask("initialize", {"processId": os.getpid(), "rootUri": folder.as_uri(), "capabilities": {}})["capabilities"]
-        self.tell("initialized", {})
+        self.notify("initialized", {})
 
     def _listen(self) -> None:
         assert self.process.stderr
@@ -53,7 +53,7 @@ class Client:
         self.process.stdin.write(b"Content-Length: %d\r\n\r\n" % len(data) + data)
         self.process.stdin.flush()
 
-    def tell(self, method: str, params: Any) -> None:
+    def notify(self, method: str, params: Any) -> None:
         self._send({"method": method, "params": params})
 
     def ask(self, method: str, params: Any) -> Any:
@@ -64,10 +64,10 @@ class Client:
         return answer["result"]
 
     def open(self, path: Path, text: str) -> None:
-        self.tell("textDocument/didOpen", {"textDocument": {"uri": path.as_uri(), "languageId": "lsdyna", "version": 1, "text": text}})
+        self.notify("textDocument/didOpen", {"textDocument": {"uri": path.as_uri(), "languageId": "lsdyna", "version": 1, "text": text}})
 
     def change(self, path: Path, text: str, version: int) -> None:
-        self.tell("textDocument/didChange", {"textDocument": {"uri": path.as_uri(), "version": version}, "contentChanges": [{"text": text}]})
+        self.notify("textDocument/didChange", {"textDocument": {"uri": path.as_uri(), "version": version}, "contentChanges": [{"text": text}]})
 
     def at(self, what: str, path: Path, line: int, column: int) -> Any:
         return self.ask(f"textDocument/{what}", {"textDocument": {"uri": path.as_uri()}, "position": {"line": line, "character": column}})
@@ -84,5 +84,5 @@ class Client:
 
     def close(self) -> int:
         self.ask("shutdown", None)
-        self.tell("exit", None)
+        self.notify("exit", None)
         return self.process.wait(timeout=30)

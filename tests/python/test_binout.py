@@ -175,8 +175,8 @@ def test_binout_of_welds_and_joints(tmp_path: Path) -> None:
         ours = courant.open(run(tmp_path / f"{name}.k", tmp_path / name))
         assert np.ravel(ours.binout[f"{folder}/ids"]).tolist() == [id]
         for in_binout, column in names.items():
-            told = ours.ascii[name][f"{column}_{id}"]
-            np.testing.assert_allclose(np.ravel(ours.binout[f"{folder}/{in_binout}"]), told, rtol=1e-4, atol=1e-5 * abs(told).max() + 1e-30, err_msg=in_binout)
+            printed = ours.ascii[name][f"{column}_{id}"]
+            np.testing.assert_allclose(np.ravel(ours.binout[f"{folder}/{in_binout}"]), printed, rtol=1e-4, atol=1e-5 * abs(printed).max() + 1e-30, err_msg=in_binout)
         if name == "swforc":
             failed = ours.binout["swforc/failure_flag"]
             assert failed[0] == 0 and failed[-1] == 1 and 0.9e-3 < ours.binout["swforc/failure_time"][-1] < 1.2e-3
@@ -281,8 +281,24 @@ def test_damaged_binout_never_crashes(binout_folder: Path, tmp_path: Path) -> No
         try:
             found = courant.open(tmp_path).binout
             [found[name] for name in found]
+            [found.series(name.partition("/")[0]) for name in found.histories]
         except courant.CourantError:
             pass
+
+
+@needs_courant
+def test_points_of_elements_with_odd_counts(binout_folder: Path) -> None:
+    """Counts of points that do not fit their arrays give no values, and no exception but KeyError."""
+    ours = BinoutFile(binout_folder / "binout0000")
+    counts = ours._states["elout/shell/nip"]
+    for odd in (-1, 0, 10**12, -(2**62)):
+        ours._states["elout/shell/nip"] = {k: np.full_like(row, odd) for k, row in counts.items()}
+        with pytest.raises(KeyError):
+            ours.of("elout/shell/sig_xx", 31)
+    ours._states["elout/shell/nip"] = counts
+    with pytest.raises(KeyError):
+        ours.of("elout/shell/sig_xx", 99)
+    assert ours.of("elout/shell/sig_xx", 31).shape[1] == 5
 
 
 # ---------------------------------------------------------------------------------------------------------------------------------- report

@@ -139,13 +139,13 @@ class BinoutFile(Mapping[str, np.ndarray]):
         fixed, of_state, counts = self._fixed.get(f"{folder}/ids"), self._states.get(f"{folder}/ids", {}), self._states.get(f"{folder}/nip", {})
         for k in self._order(path):
             values, ids = self._states[path][k], of_state.get(k, fixed)
-            nip = counts.get(k)
             if ids is None:
                 raise KeyError(f"'{folder}' has no ids")
-            begin = np.arange(len(ids)) if len(values) == len(ids) or nip is None else np.cumsum(nip) - nip
-            at = np.flatnonzero(ids == id)
-            count = 1 if len(values) == len(ids) or nip is None or not len(at) else int(nip[at[0]])
-            rows.append(values[begin[at[0]] : begin[at[0]] + max(count, 0)] if len(at) else np.empty(0))
+            nip = counts.get(k, np.empty(0))
+            nip = nip.astype(np.int64) if len(values) != len(ids) and len(nip) == len(ids) else np.ones(len(ids), np.int64)
+            at, ends = np.flatnonzero(ids == id), np.cumsum(nip)
+            whole = len(at) > 0 and len(nip) > 0 and nip.min() >= 0 and ends[-1] <= len(values)
+            rows.append(values[ends[at[0]] - nip[at[0]] : ends[at[0]]] if whole else np.empty(0))
         width = max(map(len, rows), default=0)
         if width == 0:
             raise KeyError(f"'{folder}' has no {id}")

@@ -33,7 +33,7 @@ _KINDS: dict[str, Schema] = {
     "range": {"type": ["array", "null"], "minItems": 2, "maxItems": 2},
     "vector": {"type": "array", "minItems": 2, "maxItems": 3, "items": _NUMBER},
     "map": {"type": ["object", "null"]},
-    "places": {"anyOf": [_NUMBER, {"type": "array"}, {"$ref": "#/$defs/steps"}]},
+    "positions": {"anyOf": [_NUMBER, {"type": "array"}, {"$ref": "#/$defs/steps"}]},
     "any": {},
 }
 _HOMES = {"scene": ("scene.reader", "scene.scene"), "recipe": ("post.recipe", "post.views", "post.analyses", "post.bed", "post.state"), "suite": ("verify.suite",)}

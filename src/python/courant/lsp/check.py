@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..files import write_file
+
 _LONGEST = 120.0  # of a check [s]
 
 
@@ -25,13 +27,13 @@ class Message:
 
 
 async def check(program: str, deck: str, texts: dict[str, str]) -> list[Message]:
-    """Messages of a deck. `texts`: unsaved contents by path, which are read in place of the files. Raises OSError where the program does not start,
+    """Messages of a deck. `texts`: unsaved contents by path, which are read instead of the files. Raises OSError where the program does not start,
     TimeoutError and ValueError where it gives no report."""
     with tempfile.TemporaryDirectory(prefix="courant_lsp_") as folder:
         words = [program, "check", deck, "--json"]
         for k, (path, text) in enumerate(texts.items()):
             file = Path(folder) / f"{k}.k"
-            file.write_text(text, encoding="utf-8", errors="surrogateescape", newline="")
+            write_file(file, text)
             words += ["--text", f"{path}={file}"]
         process = await asyncio.create_subprocess_exec(
             *words, stdin=asyncio.subprocess.DEVNULL, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.DEVNULL, cwd=str(Path(deck).parent)

@@ -103,7 +103,7 @@ class _Extremes(NamedTuple):
     high: float
 
 
-_SOUNDNESS = keys_of_map("analysis soundness", "kind text!, name text!, c0 any, rho0 any, x places, where text, from number, to number")
+_SOUNDNESS = keys_of_map("analysis soundness", "kind text!, name text!, c0 any, rho0 any, x positions, where text, from number, to number")
 
 
 @analysis("soundness")

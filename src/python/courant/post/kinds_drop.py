@@ -36,7 +36,7 @@ class _Seen(NamedTuple):
 
 _JUMP_TYPE = keys_of_map(
     "analysis jump_type",
-    "kind text!, name text!, step any, y1 any, v1 any, bed text|@bed, x places, behind any, toe any, jet any, upstream any, band any, "
+    "kind text!, name text!, step any, y1 any, v1 any, bed text|@bed, x positions, behind any, toe any, jet any, upstream any, band any, "
     "average any, where text, link number, share number, from number, to number",
 )
 

@@ -29,7 +29,7 @@ class _Seen(NamedTuple):
 
 _GAUGES = keys_of_map(
     "analysis gauges",
-    "kind text!, name text!, of any, toe any, distances places, x places, height any, bed text|@bed, surface any, interpolation text, "
+    "kind text!, name text!, of any, toe any, distances positions, x positions, height any, bed text|@bed, surface any, interpolation text, "
     "wet any, where text, link number, share number, from number, to number",
 )
 

@@ -328,7 +328,7 @@ class SpectrumAnalysis(Analysis):
         )
 
 
-_TOE = keys_of_map("analysis toe", "kind text!, name text!, of any, depth any, x places, from number, to number")
+_TOE = keys_of_map("analysis toe", "kind text!, name text!, of any, depth any, x positions, from number, to number")
 
 
 @analysis("toe")

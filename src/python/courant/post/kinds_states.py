@@ -102,7 +102,7 @@ def depth_over(pieces: Pieces, bed: np.ndarray, h: float, first: bool = False) -
 
 _SURFACE = keys_of_map(
     "analysis surface",
-    "kind text!, name text!, where text, link number, share number, x places, across any, bed text|@bed, surface any, layers any, "
+    "kind text!, name text!, where text, link number, share number, x positions, across any, bed text|@bed, surface any, layers any, "
     "from number, to number",
 )
 
@@ -219,8 +219,8 @@ class Sampler:
 
 _GRID = keys_of_map(
     "analysis grid",
-    "kind text!, name text!, of any, where text, link number, share number, interpolation text, wet any, least_wet any, x places, "
-    "y places, z places, from number, to number, states any",
+    "kind text!, name text!, of any, where text, link number, share number, interpolation text, wet any, least_wet any, x positions, "
+    "y positions, z positions, from number, to number, states any",
 )
 
 
@@ -328,7 +328,7 @@ _FLUXES = ("mass", "volume", "momentum_x", "momentum_y", "momentum_z", "pressure
 _FLUX_DIMENSIONS = ((1, 0, -1), (0, 3, -1), *[(1, 1, -2)] * 4, *[(1, 2, -3)] * 3)
 
 
-_FLUX = keys_of_map("analysis flux", "kind text!, name text!, where text, normal any, at any, x places, y places, z places, g any, level any, from number, to number")
+_FLUX = keys_of_map("analysis flux", "kind text!, name text!, where text, normal any, at any, x positions, y positions, z positions, g any, level any, from number, to number")
 
 
 @analysis("flux")

@@ -23,7 +23,7 @@ from .view_scene import Scene, UnknownField, View, colour_range, scenes_of
 from .view_space import camera_of, draw_axes, draw_panel, frame_of, render
 
 # keys that are more than one field, or none as it is
-_PARTS = keys_of_map("more of a view", "times list, camera @camera, x list, y list, z list, mirror text|list, columns number, gauges places, theory @theory")
+_PARTS = keys_of_map("more of a view", "times list, camera @camera, x list, y list, z list, mirror text|list, columns number, gauges positions, theory @theory")
 _CAMERA = keys_of_map("camera", "azimuth number, elevation number")
 _THEORY = keys_of_map("theory", "of any!, x list, label text")
 _DPI = 120
