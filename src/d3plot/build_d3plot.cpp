@@ -79,8 +79,9 @@ class MeshBuilder {
   /// A second end on the ground is that of the first.
   void add_spring(const ElementDiscreteCard& card) {
     const auto at = model_.part_of_id.find(card.pid);
-    const auto first = place_.find(card.n1), second = place_.find(card.n2 == 0 ? card.n1 : card.n2);
-    if (at == model_.part_of_id.end() || first == place_.end() || second == place_.end()) return;  // refused
+    const auto& known = place_;
+    const auto first = known.find(card.n1), second = known.find(card.n2 == 0 ? card.n1 : card.n2);
+    if (at == model_.part_of_id.end() || first == known.end() || second == known.end()) return;  // refused
     D3plotElement one{card.eid, part(static_cast<Index>(at->second))};
     one.node[0] = first->second, one.node[1] = second->second, one.spring = true;
     mesh_.beams.push_back(one);

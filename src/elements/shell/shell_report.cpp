@@ -36,7 +36,7 @@ class ShellReport : public Pass, public ElementReporter, public FieldFiller {
       for (const HistoryVariable& h : part.law_of(p % layers_).history())
         history_[p].push_back(&layer_history_of(group, h, static_cast<int>(p)));
     for (std::size_t k = 0; k < layers_; ++k) plastic_[k] = plastic_strain_of(part.law_of(k));
-    if (strains) strains_.emplace(group, static_cast<int>(layers_ * places_));
+    if (strains) strains_.emplace(group, static_cast<int>(history_.size()));
     if (shown) add_shown_fields(part);
   }
   std::string name() const override { return "report of " + group_.fields.name(); }

@@ -30,7 +30,7 @@ class DeckServer:
         self.server = made("courant", "1")
         self.workspace = Workspace()
         self._checks: dict[str, asyncio.Task[None]] = {}
-        self._told: dict[str, set[str]] = {}  # files with messages, by checked deck
+        self._published: dict[str, set[str]] = {}  # files with messages, by checked deck
         self._register()
 
     def _register(self) -> None:
@@ -85,7 +85,7 @@ class DeckServer:
         self.workspace.open.pop(path, None)
         if (task := self._checks.pop(path, None)) is not None:
             task.cancel()
-        for file in self._told.pop(path, set()) | {path}:
+        for file in self._published.pop(path, set()) | {path}:
             self._publish(file, [])
 
     # messages
@@ -102,9 +102,9 @@ class DeckServer:
             by_file: dict[str, list[Message]] = {deck: []}
             for one in found:
                 by_file.setdefault(one.file, []).append(one)
-            for file in self._told.get(deck, set()) - set(by_file):
+            for file in self._published.get(deck, set()) - set(by_file):
                 self._publish(file, [])
-            self._told[deck] = set(by_file)
+            self._published[deck] = set(by_file)
             for file, messages in by_file.items():
                 self._publish(file, messages)
         except asyncio.CancelledError:
