@@ -63,7 +63,5 @@ struct KeywordAnswer {
 };
 KeywordAnswer find_keywords(const std::string& name);
 std::string keyword_markdown();
-/// All tables for programs: a list of keywords with their cards and fields.
-std::string keyword_json();
 
 }  // namespace courant
