@@ -128,8 +128,9 @@ void build_d3plot(const Deck& deck, const Model& model, World& world, Diagnostic
   if (!card) return;
   constexpr Real of_lsdyna = 7 * 512 * 512 * 4;  // bytes
   const Real most = card->size > 0 ? 1e6 * card->size : of_lsdyna;
-  world.passes.add(std::make_shared<D3plotModel>(MeshBuilder(deck, model).build(world), extent_of(deck, *card),
-                                                 card->vtk == 1, static_cast<std::size_t>(most)));
+  world.passes.add(std::make_shared<D3plotModel>(MeshBuilder(deck, model).build(world),
+                                                 extent_of(deck, *card), card->vtk == 1,
+                                                 static_cast<std::size_t>(most)));
 }
 const RegisterAddition d3plot{"d3plot", build_d3plot};
 

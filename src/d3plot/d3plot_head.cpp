@@ -70,7 +70,6 @@ Words control_words(const D3plotMesh& mesh, const D3plotExtent& x, std::size_t g
                                       mesh.shells.size() + 3 * mesh.parts.size()));
   c.set(43, x.stress ? 1000 : 999), c.set(44, x.plastic ? 1000 : 999);  // 999: of solids alone
   c.set(45, flag(x.resultants)), c.set(46, flag(x.extra));
-  if (x.strains) c.set(56, 10000);
   c.set(51, static_cast<std::int64_t>(mesh.parts.size()));
   return c.finish();
 }

@@ -81,7 +81,7 @@ void D3plotModel::find_sources(const World& world) {
 void D3plotModel::find_springs(const World& world) {
   std::unordered_map<Id, std::size_t> row_of;
   for (std::size_t k = 0; k < mesh_.beams.size(); ++k)
-    if (mesh_.beams[k].spring) row_of.emrow_of(mesh_.beams[k].id, k);
+    if (mesh_.beams[k].spring) row_of.emplace(mesh_.beams[k].id, k);
   for (const auto* reporter : world.passes.all<const SpringReporter>()) {
     const ElementGroup& group = reporter->spring_group();
     for (Index e = 0; e < group.size(); ++e)
@@ -201,8 +201,7 @@ void D3plotModel::put_nodes(const World& world, const Clock& clock, const std::v
 void D3plotModel::put_solid(const World& world, const Source& source, Words& out) const {
   if (!source.reporter) return out.zeros(static_cast<std::size_t>(extent_.words_of_solid()));
   const auto count = static_cast<std::size_t>(extent_.points_of_solids);
-  const ElementReport report =
-      source.reporter->report_element(world, source.e, {.all_points = count > 1});
+  const ElementReport report = source.reporter->report_element(world, source.e, {.all_points = count > 1});
   for (std::size_t p = 0; p < count; ++p) {
     const PointReport& point = report.points[std::min(p, report.points.size() - 1)];
     for (const Real s : point.stress) out.real(s);

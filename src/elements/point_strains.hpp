@@ -18,7 +18,7 @@ class PointStrains {
   Field<Real>& field() { return field_; }
   void declare(Accesses& a) const { a.updates(field_); }
   /// Behind the law. `rate_zz`: of shells, from the law; null: that of the points. [1/T]
-  void advance(int point, Index begin, const PointBlock& points, const Real* rate_zz = nullptr) {
+  void advance(int point, Index begin, const PointBlock& points, const Real* rate_zz = nullptr) const {
     for (int k = 0; k < 6; ++k) {
       Real* strain = field_.data(6 * point + k) + begin;
       const Real* rate = k == 2 && rate_zz ? rate_zz : points.rate[static_cast<std::size_t>(k)];

@@ -75,7 +75,7 @@ def test_hover_gives_meaning_dimension_and_state(deck: DeckText) -> None:
     line, _ = at(PLATE, "7.85e-9")
     assert "RO" in hover(known, deck, line, 15) and "M/L3" in hover(known, deck, line, 15)
     line, _ = at(PLATE, "*MAT_ELASTIC_TITLE")
-    assert "State: honoured" in hover(known, deck, line, 3) and "Card 1" in hover(known, deck, line, 3)
+    assert "State: partly" in hover(known, deck, line, 3) and "Card 1" in hover(known, deck, line, 3)
     line, _ = at(PLATE, "         1         3         2")
     assert "material 2" in hover(known, deck, line, 27) and "MID" in hover(known, deck, line, 27)
     assert hover(known, deck, *at(PLATE, "block", 1)) == ""

@@ -39,16 +39,17 @@ void swforc_numbers(const World& world, const Clock&, HistoryNumbers& to) {
 const RegisterAsciiHistory swforc{
     {.name = "swforc",
      .interval = interval_in<DatabaseSwforc>,
-     .text = [](const World& world, const Clock& clock) {
-       std::string out = fmt::sprintf("\n spotweld forces (t=%14.5E)\n", clock.t);
-       out +=
-           "   weld id     type         axial         shear       failure        length        moment"
-           "       torsion\n";
-       for (const WeldForce& w : welds_of(world))
-         out += fmt::sprintf("%10d     beam%14.5E%14.5E%14.5E%14.5E%14.5E%14.5E\n", w.id, w.axial + 0.0,
-                             w.shear, w.failure_time, w.length, w.moment, w.torsion + 0.0);  // no -0
-       return out;
-     },
+     .text =
+         [](const World& world, const Clock& clock) {
+           std::string out = fmt::sprintf("\n spotweld forces (t=%14.5E)\n", clock.t);
+           out +=
+               "   weld id     type         axial         shear       failure        length        moment"
+               "       torsion\n";
+           for (const WeldForce& w : welds_of(world))
+             out += fmt::sprintf("%10d     beam%14.5E%14.5E%14.5E%14.5E%14.5E%14.5E\n", w.id, w.axial + 0.0,
+                                 w.shear, w.failure_time, w.length, w.moment, w.torsion + 0.0);  // no -0
+           return out;
+         },
      .numbers = swforc_numbers,
      .binary = binary_in<DatabaseSwforc>}};
 

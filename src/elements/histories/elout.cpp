@@ -154,15 +154,16 @@ void elout_numbers(const World& world, const Clock&, HistoryNumbers& to) {
 const RegisterAsciiHistory elout{{.name = "elout",
                                   .interval = interval_in<DatabaseElout>,
                                   .text = elout_state,
-                                  .legend = [](const World& world) {
-                                    std::vector<std::pair<Id, std::string>> out;
-                                    if (const Elout* elout = elout_of(world))
-                                      for (const auto& list : elout->wanted)
-                                        for (const Elout::ListedElement& one : list)
-                                          if (!one.title.empty())
-                                            out.emplace_back(one.element.id(), one.title);
-                                    return out;
-                                  },
+                                  .legend =
+                                      [](const World& world) {
+                                        std::vector<std::pair<Id, std::string>> out;
+                                        if (const Elout* elout = elout_of(world))
+                                          for (const auto& list : elout->wanted)
+                                            for (const Elout::ListedElement& one : list)
+                                              if (!one.title.empty())
+                                                out.emplace_back(one.element.id(), one.title);
+                                        return out;
+                                      },
                                   .numbers = elout_numbers,
                                   .binary = binary_in<DatabaseElout>}};
 

@@ -28,7 +28,8 @@ void add_points(const std::string& folder, const std::vector<EloutPoint>& points
     state.push_back({name, std::move(values)});
   };
   if (kind == ElementKind::beam) {
-    constexpr std::pair<const char*, std::size_t> names[] = {{"sigma_11", 0}, {"sigma_12", 3}, {"sigma_31", 5}};
+    constexpr std::pair<const char*, std::size_t> names[] = {
+        {"sigma_11", 0}, {"sigma_12", 3}, {"sigma_31", 5}};
     for (const auto& [name, k] : names)
       add(name, [k = k](const EloutPoint& one) { return one.point->stress[k]; });
     return add("plastic_eps", [](const EloutPoint& one) { return one.point->plastic; });
@@ -111,10 +112,12 @@ void add_elout_numbers(ElementKind kind, const std::vector<EloutElement>& elemen
     rows.integer("mtype", &E::material);
     constexpr const char* names[] = {"axial", "shear_s", "shear_t", "moment_s", "moment_t", "torsion"};
     for (std::size_t k = 0; k < 6; ++k)
-      rows.real(names[k], [k](const E& e) { return e.report.resultants[k]; }, k < 3 ? "ML/T2" : "ML2/T2");
+      rows.real(
+          names[k], [k](const E& e) { return e.report.resultants[k]; }, k < 3 ? "ML/T2" : "ML2/T2");
   } else {
     fixed.push_back({"states", std::string("elastic,plastic,failed")});
-    fixed.push_back({"system", std::string(content.local && kind == ElementKind::shell ? "local " : "global")});
+    fixed.push_back(
+        {"system", std::string(content.local && kind == ElementKind::shell ? "local " : "global")});
   }
   if (kind == ElementKind::shell) rows.integer("iop", [](const E&) { return 1; });
   std::vector<EloutPoint> points;

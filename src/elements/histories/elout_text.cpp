@@ -137,7 +137,8 @@ std::string resultants_text(const Elements& elements, const Clock& clock) {
 std::string solid_strains_text(const Elements& elements, const Clock& clock) {
   std::string out = heading("s t r a i n", clock);
   out +=
-      "\n element  materl\n element  strain       eps-xx      eps-yy      eps-zz      eps-xy      eps-yz      "
+      "\n element  materl\n element  strain       eps-xx      eps-yy      eps-zz      eps-xy      eps-yz     "
+      " "
       "eps-zx\n num/ipt   state\n";
   for (const EloutElement& one : elements) {
     out += fmt::sprintf("%8d-%7d\n", one.id, one.part);
@@ -149,7 +150,8 @@ std::string solid_strains_text(const Elements& elements, const Clock& clock) {
 }
 
 std::string shell_strains_text(const Elements& elements, bool local) {
-  std::string out = fmt::format("\n strains {:8}      eps-xx      eps-yy      eps-zz", local ? "(local)" : "(global)");
+  std::string out =
+      fmt::format("\n strains {:8}      eps-xx      eps-yy      eps-zz", local ? "(local)" : "(global)");
   out += "      eps-xy      eps-yz      eps-zx\n\n";
   for (const EloutElement& one : elements)
     if (!one.report.points.empty())

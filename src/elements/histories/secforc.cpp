@@ -195,17 +195,22 @@ void secforc_numbers(const World& world, const Clock&, HistoryNumbers& to) {
   for (const auto* sections : world.passes.all<const CrossSections>())
     for (const CrossSection& section : sections->sections) all.emplace_back(&section, section.force(world));
   const auto none = [](const S&) { return 0; };
-  HistoryRows(to, "", all, [](const S& s) { return s.first->id; }, "sections")
+  HistoryRows(
+      to, "", all, [](const S& s) { return s.first->id; }, "sections")
       .title([](const S& s) { return s.first->title; })
       .fixed("rigidbody", none)
       .fixed("accelerometer", none)
       .fixed("coordinate_system", [](const S& s) { return s.first->system; })
-      .vector("{}_force", [](const S& s) { return s.second.force; }, "ML/T2")
+      .vector(
+          "{}_force", [](const S& s) { return s.second.force; }, "ML/T2")
       .real("total_force", [](const S& s) { return s.second.force.norm(); })
-      .vector("{}_moment", [](const S& s) { return s.second.moment; }, "ML2/T2")
+      .vector(
+          "{}_moment", [](const S& s) { return s.second.moment; }, "ML2/T2")
       .real("total_moment", [](const S& s) { return s.second.moment.norm(); })
-      .vector("{}_centroid", [](const S& s) { return s.second.centroid; }, "L")
-      .real("area", [](const S& s) { return s.second.area; }, "L2");
+      .vector(
+          "{}_centroid", [](const S& s) { return s.second.centroid; }, "L")
+      .real(
+          "area", [](const S& s) { return s.second.area; }, "L2");
 }
 
 const RegisterAsciiHistory secforc{

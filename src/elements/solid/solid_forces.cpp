@@ -278,7 +278,8 @@ class SolidForces : public Material,
                             const Clock* failing) {
     const FullPoints::Between between{
         [&] {
-          if (failing && erosion_->any_dead(block.begin)) hold_deleted(*erosion_, block.begin, block.count, scratch);
+          if (failing && erosion_->any_dead(block.begin))
+            hold_deleted(*erosion_, block.begin, block.count, scratch);
         },
         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }};
     if (!of.pressure) return full_->advance(of, block, scratch, between);

@@ -188,7 +188,7 @@ class D3plotFile:
         if h["idtdt"] >= 100:
             return h["idtdt"] // 10000 % 10 == 1
         each = 6 * (h["ioshl1"] == 1000) + (h["ioshl2"] == 1000) + h["neips"]
-        return h["nel4"] > 0 and h["nv2d"] - self.layers * each - 8 * (h["ioshl3"] == 1000) - 4 * (h["ioshl4"] == 1000) >= 12
+        return h["nv2d"] > 0 and h["nv2d"] - self.layers * each - 8 * (h["ioshl3"] == 1000) - 4 * (h["ioshl4"] == 1000) >= 12
 
     @property
     def layers(self) -> int:

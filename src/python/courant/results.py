@@ -459,7 +459,7 @@ class Results:
             return self.gauges[name]
         if name not in ASCII_NAMES:
             return self.histories.table(name)
-        return self.ascii[name] if name in self.ascii or not binout_files(self.folder) else self.binout_table(name)
+        return self.ascii[name] if name in list(self.ascii) or not binout_files(self.folder) else self.binout_table(name)
 
     def binout_table(self, name: str) -> Table:
         """A history of binout over time; columns are named as binout and the ids have them: z_displacement_5. Raises KeyError."""
