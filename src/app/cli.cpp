@@ -305,7 +305,8 @@ int command_line(int argc, char** argv) {
   add_case(check);
   add_load(check);
   check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
-  check->add_option("--text", call.texts, "FILE=TEXT: reads the file TEXT instead of FILE, as editors need it")
+  check
+      ->add_option("--text", call.texts, "FILE=TEXT: reads the file TEXT instead of FILE, as editors need it")
       ->allow_extra_args(false);
   check->add_flag("--json", call.json, "the report and its messages for programs, on standard output");
 

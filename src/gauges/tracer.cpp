@@ -44,7 +44,7 @@ class Tracers : public Pass {
     using R = std::pair<Id, Row>;
     const std::vector<R> all = rows(world, clock);
     HistoryRows arrays(to, "", all, &R::first, "tracers");
-    constexpr const char* names[] = {"x",  "y",  "z",   "vx",  "vy",  "vz",  "sx",   "sy",
+    constexpr const char* names[] = {"x",  "y",   "z",   "vx",  "vy",  "vz",  "sx",   "sy",
                                      "sz", "sxy", "syz", "szx", "efp", "rho", "rvol", "active"};
     for (std::size_t k = 0; k < 16; ++k) arrays.real(names[k], [k](const R& r) { return r.second[k]; });
     std::size_t at = 0;
@@ -164,7 +164,8 @@ const RegisterAsciiHistory trhist{
      .columns = "  x  y  z  vx\n  vy  vz  sx  sy\n  sz  sxy  syz  szx\n  efp  rho  rvol  active\n",
      .numbers =
          [](const World& world, const Clock& clock, HistoryNumbers& to) {
-           for (const auto* tracers : world.passes.all<const Tracers>()) tracers->add_numbers(world, clock, to);
+           for (const auto* tracers : world.passes.all<const Tracers>())
+             tracers->add_numbers(world, clock, to);
          },
      .binary = binary_in<TrhistCard>}};
 

@@ -91,16 +91,16 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
     const bool text = request.binary != 2 || !request.file.numbers;
     if (!request.schedule.is_wanted() || !text) unused.push_back(name);
     if (!request.schedule.is_wanted()) continue;
-    files_.push_back({request.schedule,
-                      name,
-                      {},
-                      binout ? request.file.numbers : nullptr,
-                      binout && request.file.legend ? request.file.legend(requests.titles)
-                                                    : std::vector<Legend>(),
-                      std::move(request.file.text),
-                      request.gauge,
-                      request.layout,
-                      {}});
+    files_.push_back(
+        {request.schedule,
+         name,
+         {},
+         binout ? request.file.numbers : nullptr,
+         binout && request.file.legend ? request.file.legend(requests.titles) : std::vector<Legend>(),
+         std::move(request.file.text),
+         request.gauge,
+         request.layout,
+         {}});
     if (!text) continue;
     if (request.gauge) make_folder(dir / result_names::gauges);
     const bool goes_on = resume && resume->bytes.contains(name);

@@ -102,7 +102,7 @@ class Histories {
   struct Ascii {
     OutputSchedule schedule;
     std::string name;
-    std::optional<TextFile> file;  // none: in binout alone
+    std::optional<TextFile> file;                                       // none: in binout alone
     std::function<void(const Sample&, Real, HistoryNumbers&)> numbers;  // for binout; none: not there
     std::vector<Legend> legend;                                         // of binout
     std::function<std::string(const Sample&, Real)> text;

@@ -1,7 +1,7 @@
 #pragma once
 // The histories that the library writes from samples: each is one file that registers itself, with its text
-// and its numbers for binout. Layouts: those that LS-DYNA R16 prints, measured on real files; folders and names
-// of binout: those that LS-DYNA's converter l2a reads.
+// and its numbers for binout. Layouts: those that LS-DYNA R16 prints, measured on real files; folders and
+// names of binout: those that LS-DYNA's converter l2a reads.
 #include <functional>
 #include <string>
 #include <utility>

@@ -35,22 +35,25 @@ void jntforc_numbers(const World& world, const Clock&, HistoryNumbers& to) {
 const RegisterAsciiHistory jntforc{
     {.name = "jntforc",
      .interval = interval_in<DatabaseJntforc>,
-     .text = [](const World& world, const Clock& clock) {
-       std::string out;
-       const auto line = [&](const char* name, Real value) {
-         out += fmt::sprintf(" %s%s%15.6E\n", name, std::string(30 - std::string(name).size(), '.'), value);
-       };
-       for (const JointForce& joint : joints_of(world)) {
-         out += "\n";
-         line("time", clock.t);
-         out += fmt::sprintf(" joint ID......................%15d\n", joint.id);
-         for (int k = 0; k < 3; ++k) line(std::array{"x-force", "y-force", "z-force"}[k], joint.force[k]);
-         for (int k = 0; k < 3; ++k) line(std::array{"x-moment", "y-moment", "z-moment"}[k], joint.moment[k]);
-         line("resultant force", joint.force.norm());
-         line("resultant moment", joint.moment.norm());
-       }
-       return out;
-     },
+     .text =
+         [](const World& world, const Clock& clock) {
+           std::string out;
+           const auto line = [&](const char* name, Real value) {
+             out +=
+                 fmt::sprintf(" %s%s%15.6E\n", name, std::string(30 - std::string(name).size(), '.'), value);
+           };
+           for (const JointForce& joint : joints_of(world)) {
+             out += "\n";
+             line("time", clock.t);
+             out += fmt::sprintf(" joint ID......................%15d\n", joint.id);
+             for (int k = 0; k < 3; ++k) line(std::array{"x-force", "y-force", "z-force"}[k], joint.force[k]);
+             for (int k = 0; k < 3; ++k)
+               line(std::array{"x-moment", "y-moment", "z-moment"}[k], joint.moment[k]);
+             line("resultant force", joint.force.norm());
+             line("resultant moment", joint.moment.norm());
+           }
+           return out;
+         },
      .numbers = jntforc_numbers,
      .binary = binary_in<DatabaseJntforc>}};
 
