@@ -3,8 +3,8 @@
 
 usage: tutorials.py COURANT SOURCE_DIR WORK_DIR [--write] [NAME...]
 Of a page of docs/tutorials:
-- a block below a line that ends with `NAME`: is written to the file NAME;
 - a block `sh` runs by bash; a comment `# exit code N` names the code that it ends with, 0 else;
+- another block below a line that ends with `NAME`: is written to the file NAME;
 - a block `text` is what the commands before it print: its lines are there in this order, those of dots stand for others;
 - each picture is made by the run under the same name and looks the same: means over 24 x 24 fields differ by less than 0.05 of white;
 - blocks below a line with "Optional" and `pip install PACKAGE` are left out, with a word, where the package is missing.
@@ -38,6 +38,7 @@ def blocks(text):
                     break
                 content.append(inner)
             found.append((line[3:].strip(), above, "\n".join(content) + "\n", optional))
+            above = ""
         elif line.strip():
             if line.startswith("#"):
                 optional = None
@@ -83,15 +84,15 @@ def run_page(page, folder, environment):
         name = re.search(r"`([^`]+)`:$", above)
         if package and missing(package):
             print(f"{page.stem}: skipped what needs {package}: it is missing")
+        elif name and language != "sh":
+            path = folder / name.group(1)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(content, encoding="utf-8")
         elif language == "text":
             lacking = shown(content, output)
             check(lacking is None, f"{page.stem}: the commands print what the page shows")
             if lacking is not None:
-                print(f"the page: {lacking}\nthe commands:\n{output}")
-        elif name:
-            path = folder / name.group(1)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(content, encoding="utf-8")
+                print(f"the page: {lacking}\nthe commands:\n{output[-6000:]}")
         elif language == "sh":
             code = re.search(r"# exit code (\d+)", content)
             done = subprocess.run(["bash", "-e", "-c", content], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
