@@ -5,7 +5,7 @@ usage: tutorials.py COURANT SOURCE_DIR WORK_DIR [--write] [NAME...]
 Of a page of docs/tutorials:
 - a block `sh` runs by bash; a comment `# exit code N` names the code that it ends with, 0 else;
 - another block below a line that ends with `NAME`: is written to the file NAME;
-- a block `text` is what the commands before it print: its lines are there in this order, those of dots stand for others;
+- a block `text` is what the commands before it print: its lines are there in this order, those of dots are any others; a block without a word is shown alone;
 - each picture is made by the run under the same name and looks the same: means over 24 x 24 fields differ by less than 0.05 of white;
 - blocks below a line with "Optional" and `pip install PACKAGE` are left out, with a word, where the package is missing.
 --write copies the pictures of the run to docs/figures/tutorials.
@@ -24,7 +24,7 @@ from checks import check, failures
 
 LONGEST_PAGE = 150  # lines
 SECONDS = 240  # of processor time, all pages together
-MODULES = {"ansys-dyna-core": "ansys.dyna.core", "pyvista": "pyvista"}  # by name of the package
+MODULES = {"ansys-dyna-core": "ansys.dyna.core", "vtk": "vtkmodules", "pyvista": "pyvista"}  # by name of the package
 
 
 def blocks(text):
@@ -93,6 +93,8 @@ def run_page(page, folder, environment):
             check(lacking is None, f"{page.stem}: the commands print what the page shows")
             if lacking is not None:
                 print(f"the page: {lacking}\nthe commands:\n{output[-6000:]}")
+        elif not language:
+            continue  # shown to the reader alone
         elif language == "sh":
             code = re.search(r"# exit code (\d+)", content)
             done = subprocess.run(["bash", "-e", "-c", content], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
