@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Each tutorial does what it says: its files are written, its commands run and its pictures made, in an empty folder, as a reader would do it.
+"""Each tutorial and README.md do what they say: files are written, commands run and pictures made, in an empty folder, as a reader would do it.
 
 usage: tutorials.py COURANT SOURCE_DIR WORK_DIR [--write] [NAME...]
-Of a page of docs/tutorials:
+Of a page of docs/tutorials (of README.md the blocks `sh`):
 - a block `sh` runs by bash; a comment `# exit code N` names the code that it ends with, 0 else;
 - another block below a line that ends with `NAME`: is written to the file NAME;
 - a block `text` is what the commands before it print: its lines are there in this order, those of dots are any others; a block without a word is shown alone;
@@ -79,7 +79,6 @@ def fields(picture):
 
 def run_page(page, folder, environment):
     output, text = "", page.read_text(encoding="utf-8")
-    check(len(text.splitlines()) <= LONGEST_PAGE, f"{page.stem} has at most {LONGEST_PAGE} lines")
     for language, above, content, package in blocks(text):
         name = re.search(r"`([^`]+)`:$", above)
         if package and missing(package):
@@ -142,16 +141,21 @@ def main():
                                 "COURANT_EXECUTABLE": str(courant), "PYTHONDONTWRITEBYTECODE": "1"}
     pages = [page for page in sorted((source / "docs/tutorials").glob("*.md")) if page.name != "README.md"]
     check(len(pages) >= 7, "there are seven tutorials")
-    used = 0.0
     for page in pages:
+        check(len(page.read_text(encoding="utf-8").splitlines()) <= LONGEST_PAGE, f"{page.stem} has at most {LONGEST_PAGE} lines")
+    used = 0.0
+    for page in [source / "README.md", *pages]:
         if words and page.stem not in words:
             continue
         folder = work / "tutorials" / page.stem
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
+        if page.stem == "README":  # its commands are typed in the folder of the project
+            (folder / "keyword_decks").symlink_to(source / "keyword_decks")
         before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.time()
         run_page(page, folder, environment)
-        compare_pictures(page, folder, "--write" in sys.argv)
+        if page.stem != "README":
+            compare_pictures(page, folder, "--write" in sys.argv)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         print(f"{page.stem}: {time.time() - begin:.1f} s, {seconds:.1f} s of processor time")
