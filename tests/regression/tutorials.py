@@ -7,6 +7,7 @@ Of a page of docs/tutorials (of README.md the blocks `sh`):
 - another block below a line that ends with `NAME`: is written to the file NAME;
 - a block `text` is what the commands before it print: its lines are there in this order, those of dots are any others; a block without a word is shown alone;
 - each picture is made by the run under the same name and looks the same: means over 24 x 24 fields differ by less than 0.05 of white;
+- the report in docs/user_guide.md is that of `courant check`;
 - blocks below a line with "Optional" and `pip install PACKAGE` are left out, with a word, where the package is missing.
 --write copies the pictures of the run to docs/figures/tutorials.
 """
@@ -160,6 +161,12 @@ def main():
         seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
         print(f"{page.stem}: {time.time() - begin:.1f} s, {seconds:.1f} s of processor time")
         used += seconds
+    if not words:
+        report = subprocess.run([courant, "check", "keyword_decks/hydraulic_jump/d4_5s.k"], cwd=source, stdout=subprocess.PIPE, text=True, timeout=60).stdout
+        (block,) = re.findall(r"^```text\n(.*?)^```", (source / "docs/user_guide.md").read_text(encoding="utf-8"), re.M | re.S)
+        # the estimate of the run time is of this machine
+        lacking = shown(re.sub(r"about \d+ s", "about T s", block), re.sub(r"about \d+ s", "about T s", report))
+        check(lacking is None, f"user_guide.md shows the report of `courant check` as it is printed{'' if lacking is None else ': not ' + lacking}")
     check(used < SECONDS, f"{used:.0f} s of processor time, at most {SECONDS}")
     return f"{len(failures)} failed" if failures else 0
 
