@@ -53,7 +53,7 @@ class KeywordPages:
         anchors = re.findall(r'<a id="([^"]+)"></a>', text.split("\n", 1)[0])
         names = [self.states[a][0] for a in anchors if a in self.states]
         states = list(dict.fromkeys(self.states[a][1] for a in anchors if a in self.states))
-        heading, rest = re.search(r"^## (.*)\n\n(.*)\Z", text, re.M | re.S).groups()
+        heading, rest = re.search(r"^## ([^\n]*)\n\n(.*)\Z", text, re.M | re.S).groups()
         first = text.split("\n", 1)[0] + f"\n\n## {heading}\n\n"
         return first + " ".join(map(badge, states)) + "\n\n" + self.used_in(names) + rest
 
@@ -63,7 +63,7 @@ class KeywordPages:
         return f"# *{of.upper()}\n\n| keyword | state |\n|---|---|\n{table}\n" + "".join(self.section(s) for s in self.sections[of])
 
     def index(self) -> str:
-        intro = self.head[: self.head.index("\n- [")]
+        intro = self.head[: self.head.index("\n- [")].replace("; do not edit", "").replace("not on this page", "not on these pages")
         rows = []
         for of, sections in sorted(self.sections.items()):
             counts = [(state, sum(s == state for a, (_, s) in self.states.items() if self.family_of.get(a) == of)) for state in STATES]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import inspect
 import re
 from pathlib import Path
 
@@ -18,9 +19,22 @@ def signature(node: ast.FunctionDef, method: bool) -> str:
     return f"{node.name}({arguments})" + (f" -> {ast.unparse(node.returns)}" if node.returns else "")
 
 
+def is_code(paragraph: str) -> bool:
+    try:
+        return len(ast.parse(inspect.cleandoc(paragraph)).body) > 1
+    except SyntaxError:
+        return False
+
+
 def text_of(node) -> str:
-    lines = (ast.get_docstring(node) or "").strip()
-    return lines.replace("*", "\\*").replace("<", "&lt;") + "\n\n" if lines else ""
+    """A docstring as Markdown: paragraphs of several lines of Python are code."""
+    out = ""
+    for paragraph in (ast.get_docstring(node) or "").strip().split("\n\n"):
+        if is_code(paragraph):
+            out += f"```python\n{inspect.cleandoc(paragraph)}\n```\n\n"
+        elif paragraph:
+            out += paragraph.replace("*", "\\*").replace("<", "&lt;") + "\n\n"
+    return out
 
 
 def decorators(node) -> set[str]:

@@ -70,8 +70,12 @@ keywords = (source / "docs/keywords.md").read_text(encoding="utf-8")
 for anchor in re.findall(r'<a id="([^"]+)"></a>', keywords):
     if not any(anchor in page.anchors for path, page in pages.items() if path.parent.name == "keywords"):
         faults.append(f"no page of keywords has {anchor}")
-badges = (work / "site/keywords/mat.html").read_text(encoding="utf-8").count('class="state ')
-if badges < 50:
-    faults.append(f"the page of materials has {badges} states")
+materials = (work / "site/keywords/mat.html").read_text(encoding="utf-8")
+sections = re.split(r"<h2", materials)[1:]
+for section in sections:
+    if 'class="state ' not in section:
+        faults.append(f"a section of materials has no state: {section[:60]}")
+if len(sections) < 40 or not any("mat_024" in section and "Decks that use it:" in section for section in re.split(r'(?=<a id="mat_)', materials)):
+    faults.append("the page of materials lacks sections, or the decks that use *MAT_024")
 print("\n".join(faults) or f"{len(pages)} pages, {sum(len(p.links) for p in pages.values())} links")
 sys.exit(1 if faults else 0)
