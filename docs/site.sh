@@ -6,6 +6,10 @@ set -euo pipefail
 project=$(cd "$(dirname "$0")/.." && pwd)
 build=${1:-$project/build}
 mkdir -p "$build"
+if ! /usr/bin/python3 -c 'import yaml' 2> /dev/null; then
+  echo "skipped: Python's yaml is missing (apt-get install python3-yaml)"
+  exit 0
+fi
 /usr/bin/python3 -B "$project/docs/site/build.py" "$project" "$build"
 if ! command -v mkdocs > /dev/null || ! /usr/bin/python3 -c 'import mkdocs.utils as u, sys; sys.exit("material" not in u.get_theme_names())' 2> /dev/null; then
   echo "skipped: mkdocs or its material theme is missing (apt-get install mkdocs mkdocs-material); pages are in $build/site_pages"
