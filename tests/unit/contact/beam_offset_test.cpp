@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "../app/same_after_restart.hpp"
 #include "../app/small_scene.hpp"
 
 namespace courant {
@@ -66,6 +67,10 @@ TEST(BeamOffset, SpringsHoldRotationsWhereItCannot) {
   // what ties displacements alone is a hinge
   const Real of_hinge = deflection(cantilever("*CONTACT_TIED_NODES_TO_SURFACE_OFFSET"), dt);
   EXPECT_GT(std::abs(of_hinge), 2 * of_exact);
+}
+
+TEST(BeamOffset, SameBitsAfterARestart) {
+  test::expect_same_after_restart(cantilever(beam, 0.01, "1", "", "5."), 300, 300);
 }
 
 }  // namespace

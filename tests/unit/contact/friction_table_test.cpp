@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "../app/same_after_restart.hpp"
 #include "../app/small_scene.hpp"
 #include "contact/friction.hpp"
 
@@ -78,6 +79,12 @@ TEST(FrictionTable, RefusesByName) {
   EXPECT_NE(refusal("*DEFINE_FRICTION\n3,0.1,0.1\n99,1,0.2,0.2\n", "-2.").find("99 does not exist"),
             std::string::npos);
   EXPECT_TRUE(test::build_deck(scene("*DEFINE_FRICTION\n3,0.1,0.1,0.,0.,1\n99,1,0.2,0.2\n", "-2."), false));
+}
+
+TEST(FrictionTable, SameBitsAfterARestart) {
+  test::expect_same_after_restart(
+      scene("*DEFINE_FRICTION\n3,0.1,0.1\n12,1,0.2,0.2\n1,13,0.3,0.3\n", "-2.,3.", "SINGLE_SURFACE"), 300,
+      300);
 }
 
 }  // namespace

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "../app/same_after_restart.hpp"
 #include "../app/small_scene.hpp"
+#include "app/run/relaxation.hpp"
 #include "elements/element_report.hpp"
 
 namespace courant {
@@ -255,6 +257,36 @@ TEST(AxialPreload, RefusesByName) {
           "*INITIAL_AXIAL_FORCE_BEAM\n1,1,100.\n*END\n")
           .find("beam 1 has ELFORM 2, whose section has no points"),
       std::string::npos);
+}
+
+TEST(InitialStressOfSolids, SameBitsAfterARestart) {
+  test::expect_same_after_restart(cube("*INITIAL_STRESS_SOLID\n1,1\n1.E5,0.,0.,0.,0.,0.,0.\n", 2), 20, 20);
+}
+
+TEST(AxialPreload, SameBitsAfterARestart) {
+  test::expect_same_after_restart(bolt("*INITIAL_AXIAL_FORCE_BEAM\n1,1,100.\n", 1), 20, 100);
+}
+
+TEST(AxialPreload, OfADynamicRelaxation) {
+  // SIDR 1: the relaxation alone puts it on, and the run begins with it, at rest
+  const std::string deck = bolt(
+      "*DEFINE_CURVE\n3,1\n0.,0.\n0.001,1.\n1.,1.\n*INITIAL_AXIAL_FORCE_BEAM\n1,3,100.\n"
+      "*CONTROL_DYNAMIC_RELAXATION\n50,1.E-6,0.99\n0\n100,0\n0,0\n");
+  const auto run_of = build_deck(deck, false);
+  ASSERT_TRUE(run_of && run_of->relaxation().asked);
+  Diagnostics diagnostics;
+  const auto relaxing =
+      Simulation::build("deck.k", in_memory(deck), diagnostics, nullptr, RunPhase::relaxation);
+  ASSERT_TRUE(relaxing) << diagnostics.text();
+  EXPECT_TRUE(relax(
+                  *relaxing, [] { return false; }, [](const std::string&) {})
+                  .converged);
+  run_of->start_from(*relaxing);
+  for (const Real until : {0.0, 0.02}) {
+    run(*run_of, until);
+    EXPECT_NEAR(report(*run_of, 1).resultants[0], 100, 0.1) << until;
+    EXPECT_NEAR(report(*run_of, 2).resultants[0], 100, 0.1) << until;
+  }
 }
 
 }  // namespace

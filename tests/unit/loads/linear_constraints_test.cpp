@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "../app/same_after_restart.hpp"
 #include "../app/small_scene.hpp"
 
 namespace courant {
@@ -138,6 +139,10 @@ TEST(PerturbationOfNodes, OfASetAlongLocalAxesAndTwice) {
 
 TEST(PerturbationOfNodes, OtherKindsAreRefused) {
   EXPECT_NE(refusal(sheet("*PERTURBATION_NODE\n8,0,1.,3\n")).find("TYPE"), std::string::npos);
+}
+
+TEST(LinearConstraint, SameBitsAfterARestart) {
+  test::expect_same_after_restart(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n2,1,-2.\n"), 50, 50);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::string box(const std::string& more, const std::string& lco = "") {
          more + "*END\n";
 }
 void expect_orientation(const std::string& deck, const std::function<Matrix(Real)>& wanted,
-                        Real until = 0.5) {
+                        Real tolerance = 1e-9) {
   const auto s = test::build_deck(deck, false);
   ASSERT_TRUE(s);
   while (s->clock().t < 0.5) {
