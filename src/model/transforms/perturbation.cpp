@@ -10,7 +10,13 @@ namespace courant {
 
 namespace {
 
-const RegisterKeyword<PerturbationNodeCard> perturbation_node{perturbation_node_table()};
+/// AMPL 0 is 1 of the units of the deck, whatever units its file has.
+KeywordTable perturbation_keyword() {
+  KeywordTable out = perturbation_node_table();
+  out.cards[1].fields[0].rules.standard = 0;
+  return out;
+}
+const RegisterKeyword<PerturbationNodeCard> perturbation_node{perturbation_keyword()};
 
 }  // namespace
 
@@ -35,9 +41,9 @@ void ModelBuilder::perturb_nodes() {
     if (card.cid != 0 && card.icoord == 0)
       deck_.warning(diagnostics_, card, "CID", "has no effect with ICOORD 0", "give ICOORD 1");
     const Vec length(card.xwl, card.ywl, card.zwl), offset(card.xoff, card.yoff, card.zoff);
-    if (length == Vec::Zero() || card.ampl * card.scl == 0)
-      deck_.warning(diagnostics_, card, length == Vec::Zero() ? "XWL" : "AMPL", "moves nothing: it is 0",
-                    "give a wave length along one direction, and an amplitude");
+    if (length == Vec::Zero())
+      deck_.warning(diagnostics_, card, "XWL", "moves nothing: all wave lengths are 0",
+                    "give a wave length along one direction");
     const Matrix axes = system ? system->axes : Matrix(Matrix::Identity());
     const Vec origin = system ? system->origin : Vec(Vec::Zero());
     Vec direction = Vec::Zero();
@@ -48,7 +54,7 @@ void ModelBuilder::perturb_nodes() {
       Real wave = 0;
       for (int k = 0; k < 3; ++k)
         if (length[k] != 0) wave += std::sin(2 * pi * x[k] / length[k]);
-      model_.nodes[n].x += card.scl * card.ampl * wave * direction;
+      model_.nodes[n].x += card.scl * (card.ampl == 0 ? 1 : card.ampl) * wave * direction;
     };
     if (members)
       for (const Index n : *members) move(static_cast<std::size_t>(n));
