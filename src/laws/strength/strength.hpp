@@ -30,6 +30,10 @@ struct HistoryVariable {
 /// Name of a history number that becomes 1 beside elements that are deleted.
 inline constexpr const char* beside_deleted = "beside_deleted_elements";
 
+/// Name of a history number that elements lay at the start: the cube root of the volume of a solid or particle, the
+/// square root of the area of a shell. 0: no element. [L]
+inline constexpr const char* element_size = "element_size";
+
 /// Failure strains from here on say that nothing fails.
 inline constexpr Real never_fails = 1e10;
 
