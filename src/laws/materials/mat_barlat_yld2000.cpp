@@ -59,9 +59,9 @@ struct MatBarlatYld2000 : DirectionsCard {
   }
 };
 
-using B = MatBarlatYld2000;
+using Yld2000 = MatBarlatYld2000;
 
-void B::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+void Yld2000::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
   const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
     if (!holds)
       deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
@@ -99,7 +99,7 @@ void B::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
 }
 
 /// Constants of hardening that are stresses.
-std::string convert_hardening_of(B& card, const Conversion& conversion) {
+std::string convert_hardening_of(Yld2000& card, const Conversion& conversion) {
   const Real factor = conversion.units.of("M/LT2");
   if (card.hard >= 0) card.k *= factor;
   if (card.hard == 2 || card.hard == 5) card.e0 *= factor;
@@ -111,7 +111,7 @@ std::string convert_hardening_of(B& card, const Conversion& conversion) {
 // PR = 1/4, pulled alike along a and b: s = 10/3 0.9 = 3, q = s, stiffness of the normal 5/3. Voce with N =
 // 0: a yield stress of K - E0 = 1 that stays: de = 2/(5/3) = 6/5.
 const std::string all_one = "1.0,1.0,1.0,1.0,1.0,1.0,1.0,1.0\n0\n\n\n";
-const RegisterStrength<B> mat_barlat_yld2000{
+const RegisterStrength<Yld2000> mat_barlat_yld2000{
     "|X1' - X2'|^A + |2 X2'' + X1''|^A + |2 X1'' + X2''|^A = 2 q^A, X' and X'' the principal values of two "
     "linear "
     "functions of the stress by ALPHA1 to ALPHA8; q <= sigma_y(e) by HARD; plastic strain along its normal; "
@@ -129,48 +129,50 @@ const RegisterStrength<B> mat_barlat_yld2000{
      .purpose = "metal sheets whose yield stress and flow depend on the direction, by eight coefficients",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &B::title,
+     .title = &Yld2000::title,
      .cards =
-         {{.fields = {{"MID", &B::mid, "-", "id that *PART refers to", rules::required_id},
-                      {"RO", &B::ro, "M/L3", "density", rules::required_positive},
-                      {"E", &B::E, "M/LT2", "Young's modulus", rules::required_positive},
-                      {"PR", &B::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
-                      {"FIT", &B::fit, "-", "coefficients from tests: 1", unsupported},
-                      {"BETA", &B::beta, "-", "share of kinematic hardening", unsupported},
-                      {"ITER", &B::iter, "-", "algorithm of the return", no_effect},
-                      {"ISCALE", &B::iscale, "-",
+         {{.fields = {{"MID", &Yld2000::mid, "-", "id that *PART refers to", rules::required_id},
+                      {"RO", &Yld2000::ro, "M/L3", "density", rules::required_positive},
+                      {"E", &Yld2000::E, "M/LT2", "Young's modulus", rules::required_positive},
+                      {"PR", &Yld2000::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
+                      {"FIT", &Yld2000::fit, "-", "coefficients from tests: 1", unsupported},
+                      {"BETA", &Yld2000::beta, "-", "share of kinematic hardening", unsupported},
+                      {"ITER", &Yld2000::iter, "-", "algorithm of the return", no_effect},
+                      {"ISCALE", &Yld2000::iscale, "-",
                        "0: tension along a yields at the yield stress; 1: as ALPHA has it"}}},
-          {.fields = {{"K", &B::k, "-", "HARD 1, 4: factor K; HARD 2, 5: yield stress in the end"},
-                      {"E0", &B::e0, "-",
+          {.fields = {{"K", &Yld2000::k, "-", "HARD 1, 4: factor K; HARD 2, 5: yield stress in the end"},
+                      {"E0", &Yld2000::e0, "-",
                        "HARD 1, 4: E0 of K (E0 + e)^N; HARD 2, 5: what the yield stress rises by"},
-                      {"N", &B::n, "-", "HARD 1, 4: exponent; HARD 2, 5: rate C of exp(-C e)"},
-                      {"C", &B::c, "1/T", "rate of strain of P", no_effect},
-                      {"P", &B::p, "-", "exponent of the rate of strain"},
+                      {"N", &Yld2000::n, "-", "HARD 1, 4: exponent; HARD 2, 5: rate C of exp(-C e)"},
+                      {"C", &Yld2000::c, "1/T", "rate of strain of P", no_effect},
+                      {"P", &Yld2000::p, "-", "exponent of the rate of strain"},
                       {"HARD",
-                       &B::hard,
+                       &Yld2000::hard,
                        "-",
                        "1 power law, 2 Voce, 4 Gosh, 5 Hockett and Sherby, < 0: curve -HARD",
                        {.standard = 1}},
-                      {"A", &B::a, "-", "exponent of the surface, 2 or more", {.required = true}}}},
-          {.fields = {{"ALPHA1", &B::alpha1, "-", "coefficient of X'", {.required = true}},
-                      {"ALPHA2", &B::alpha2, "-", "coefficient of X'", {.required = true}},
-                      {"ALPHA3", &B::alpha3, "-", "coefficient of X''", {.required = true}},
-                      {"ALPHA4", &B::alpha4, "-", "coefficient of X''", {.required = true}},
-                      {"ALPHA5", &B::alpha5, "-", "coefficient of X''", {.required = true}},
-                      {"ALPHA6", &B::alpha6, "-", "coefficient of X''", {.required = true}},
-                      {"ALPHA7", &B::alpha7, "-", "of the shear of X'", {.required = true}},
-                      {"ALPHA8", &B::alpha8, "-", "of the shear of X''", {.required = true}}}},
-          {.fields = {{"AOPT", &B::aopt, "-", aopt_meaning},
-                      {"OFFANG", &B::offang, "-", "angle by which a is turned about the normal, degrees"},
-                      {"P4", &B::p4, "-", "HARD 4: what the power law is lowered by; HARD 5: exponent of e"},
-                      {"HTFLAG", &B::htflag, "-", "stage of heat treatment", unsupported},
-                      {"HTA", &B::hta, "-", "heat treatment", unsupported},
-                      {"HTB", &B::htb, "-", "heat treatment", unsupported},
-                      {"HTC", &B::htc, "-", "heat treatment", unsupported},
-                      {"HTD", &B::htd, "-", "heat treatment", unsupported}}},
-          {.fields = fields_of_a<B>()},
-          {.fields = with_fields<B>(
-               fields_of_v<B>(), {{"USRFAIL", &B::usrfail, "-", "failure by a subroutine", unsupported}})}},
+                      {"A", &Yld2000::a, "-", "exponent of the surface, 2 or more", {.required = true}}}},
+          {.fields = {{"ALPHA1", &Yld2000::alpha1, "-", "coefficient of X'", {.required = true}},
+                      {"ALPHA2", &Yld2000::alpha2, "-", "coefficient of X'", {.required = true}},
+                      {"ALPHA3", &Yld2000::alpha3, "-", "coefficient of X''", {.required = true}},
+                      {"ALPHA4", &Yld2000::alpha4, "-", "coefficient of X''", {.required = true}},
+                      {"ALPHA5", &Yld2000::alpha5, "-", "coefficient of X''", {.required = true}},
+                      {"ALPHA6", &Yld2000::alpha6, "-", "coefficient of X''", {.required = true}},
+                      {"ALPHA7", &Yld2000::alpha7, "-", "of the shear of X'", {.required = true}},
+                      {"ALPHA8", &Yld2000::alpha8, "-", "of the shear of X''", {.required = true}}}},
+          {.fields =
+               {{"AOPT", &Yld2000::aopt, "-", aopt_meaning},
+                {"OFFANG", &Yld2000::offang, "-", "angle by which a is turned about the normal, degrees"},
+                {"P4", &Yld2000::p4, "-", "HARD 4: what the power law is lowered by; HARD 5: exponent of e"},
+                {"HTFLAG", &Yld2000::htflag, "-", "stage of heat treatment", unsupported},
+                {"HTA", &Yld2000::hta, "-", "heat treatment", unsupported},
+                {"HTB", &Yld2000::htb, "-", "heat treatment", unsupported},
+                {"HTC", &Yld2000::htc, "-", "heat treatment", unsupported},
+                {"HTD", &Yld2000::htd, "-", "heat treatment", unsupported}}},
+          {.fields = fields_of_a<Yld2000>()},
+          {.fields = with_fields<Yld2000>(
+               fields_of_v<Yld2000>(),
+               {{"USRFAIL", &Yld2000::usrfail, "-", "failure by a subroutine", unsupported}})}},
      .convert = convert_hardening_of}};
 
 }  // namespace

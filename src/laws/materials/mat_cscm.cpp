@@ -17,8 +17,8 @@ namespace courant {
 
 namespace {
 
-constexpr Real infinite = std::numeric_limits<Real>::infinity();
-constexpr Real root3 = 1.7320508075688772;
+constexpr Real unbounded = std::numeric_limits<Real>::infinity();
+constexpr Real root_of_3 = 1.7320508075688772;
 constexpr Real most_damage = most_cscm_damage;
 
 /// alpha - lambda e^(-beta I) + theta I: a strength [M/LT2], or the ratio of two [-].
@@ -28,11 +28,11 @@ struct Meridian {
   Real slope(Real I) const { return lambda * beta * std::exp(-beta * I) + theta; }
 };
 
-/// Softening d = dmax/b ((1 + b)/(1 + b e^(-k z)) - 1) over z = tau - r0; its area is that of the fracture
-/// energy.
-struct Softening {
+/// ConcreteSoftening d = dmax/b ((1 + b)/(1 + b e^(-k z)) - 1) over z = tau - r0; its area is that of the
+/// fracture energy.
+struct ConcreteSoftening {
   Real b, dilogarithm;  ///< -Li2(-b) [-]
-  explicit Softening(Real shape) : b(shape), dilogarithm(0) {
+  explicit ConcreteSoftening(Real shape) : b(shape), dilogarithm(0) {
     // the integral of w/(1 - e^-w) from 0 to ln(1 + b), by Simpson's rule
     constexpr int pieces = 400;
     const Real width = std::log1p(b) / pieces;
@@ -83,7 +83,7 @@ class Cscm : public StrengthLaw {
             {"strain", "-", 6}};
   }
   std::string failure_variable() const override { return "failure_ratio"; }
-  Real failure_limit() const override { return c_.erode >= 1 ? 1 : infinite; }
+  Real failure_limit() const override { return c_.erode >= 1 ? 1 : unbounded; }
 
   void update(const PointBlock& block) const override {
     const Real* damage = block.history[damage_now];
@@ -93,7 +93,7 @@ class Cscm : public StrengthLaw {
       for (Index i = 0; i < block.count; ++i) block.history[strain + k][i] += block.dt * block.rate[k][i];
     PlasticTrial trial;
     go_elastically(c_.k - 2 * c_.g / 3, c_.g, block, FixedCentre{}, trial);
-    for (Index i = 0; i < block.count; ++i) answer(block, i, trial.q[i] / root3);
+    for (Index i = 0; i < block.count; ++i) answer(block, i, trial.q[i] / root_of_3);
     keep_stiffness(block, sound_speed());
   }
 
@@ -117,7 +117,7 @@ class Cscm : public StrengthLaw {
   };
   /// After this plastic compaction: c = W (1 - exp(-D1 (X - X0) - D2 (X - X0)^2)), X = kappa + R F(kappa).
   Cap cap_of(Real c) const {
-    if (!(c < c_.w)) return {infinite, infinite};
+    if (!(c < c_.w)) return {unbounded, unbounded};
     const Real L = -std::log1p(-c / c_.w);
     const Real X = c_.xd + (L > 0 ? 2 * L / (c_.d1 + std::sqrt(c_.d1 * c_.d1 + 4 * c_.d2 * L)) : 0);
     Real kappa = std::max(X - c_.r * compression_(X), apex_);
@@ -133,9 +133,9 @@ class Cscm : public StrengthLaw {
   /// Rubin 1991: the strength at a Lode angle over that in triaxial compression, where sin 3 beta is 1; under
   /// high pressure the surface is round. [-]
   Real ratio(Real I, Real sin3) const {
-    const Real Q1 = I < 0 ? 1 / root3 : std::min(torsion_(I), Real(1));
+    const Real Q1 = I < 0 ? 1 / root_of_3 : std::min(torsion_(I), Real(1));
     const Real Q2 = I < 0 ? 0.5 : std::min(extension_(I), Real(1));
-    const Real a1 = root3 * Q2 + 2 * Q1 * (Q2 - 1), a0 = 2 * Q1 * Q1 * (Q2 - 1);
+    const Real a1 = root_of_3 * Q2 + 2 * Q1 * (Q2 - 1), a0 = 2 * Q1 * Q1 * (Q2 - 1);
     const Real a = (-a1 + std::sqrt(a1 * a1 - 4 * Q2 * a0)) / (2 * Q2), b = (2 * Q1 + a) * (2 * Q1 + a) - 3;
     const Real angle = std::asin(std::clamp(sin3, Real(-1), Real(1))) / 3;
     const Real sine = std::sin(angle), along = std::cos(angle) - a * sine;
@@ -196,7 +196,7 @@ class Cscm : public StrengthLaw {
       const Real at = from + x, back = c_.g * (I - at);
       const Cap now = cap_of(compacted + (I - at) / (3 * c_.k));
       const Real length = now.X - now.kappa;
-      if (at <= now.kappa || !(length < infinite)) return strength = s, back;
+      if (at <= now.kappa || !(length < unbounded)) return strength = s, back;
       const Real w = (at - now.kappa) / length;
       if (w >= 1) return strength = 0, c_.g * (now.X - at);
       const Real left = 1 - w * w, root = std::sqrt(left), F = compression_(at), r = ratio(at, sin3);
@@ -237,9 +237,10 @@ class Cscm : public StrengthLaw {
     const Real a = stress[0][i] - mean, b = stress[1][i] - mean, c = stress[2][i] - mean, d = stress[3][i],
                e = stress[4][i], f = stress[5][i];
     const Real J3 = a * (b * c - e * e) - d * (d * c - e * f) + f * (d * e - b * f);
-    const Real sin3 = s > 0 ? -1.5 * root3 * J3 / (s * s * s) : 0;
+    const Real sin3 = s > 0 ? -1.5 * root_of_3 * J3 / (s * s * s) : 0;
     const Returned on = return_to_surface(I, s, sin3, block.history[compaction][i]);
-    const Real scale = s > 0 ? on.s / s : 1, x = s > 0 ? I / (root3 * s) : (I < 0 ? -infinite : infinite);
+    const Real scale = s > 0 ? on.s / s : 1,
+               x = s > 0 ? I / (root_of_3 * s) : (I < 0 ? -unbounded : unbounded);
     const Viscosity v = on.flows ? viscosity(block, i, x) : Viscosity{};
     block.history[compaction][i] += v.share * (on.compaction - block.history[compaction][i]);
     const Real now_I = I + v.share * (on.I - I), factor = 1 + v.share * (scale - 1);
@@ -277,7 +278,7 @@ class Cscm : public StrengthLaw {
               Real overstress) const {
     const auto& h = block.history;
     const Real r0 = h[tension ? brittle_threshold : ductile_threshold][i], s = on.s;
-    const Real x = s > 0 ? on.I / (root3 * s) : (on.I < 0 ? -infinite : infinite), t = transition(x);
+    const Real x = s > 0 ? on.I / (root_of_3 * s) : (on.I < 0 ? -unbounded : unbounded), t = transition(x);
     const Real strength = r0 * std::sqrt(tension ? E_ : 2 * E_);
     const Real faster = overstress > 0 && strength > 0 ? std::pow(1 + overstress / strength, c_.repow) : 1;
     const Real energy = faster * (c_.gfs + t * ((tension ? c_.gft : c_.gfc) - c_.gfs));
@@ -307,9 +308,9 @@ class Cscm : public StrengthLaw {
 
   MatCscmFields c_;
   Meridian compression_, torsion_, extension_;
-  Softening brittle_, ductile_;
-  Real E_;                 ///< [M/LT2]
-  Real apex_ = -infinite;  ///< I at which the shear surface ends [M/LT2]
+  ConcreteSoftening brittle_, ductile_;
+  Real E_;                  ///< [M/LT2]
+  Real apex_ = -unbounded;  ///< I at which the shear surface ends [M/LT2]
 };
 
 struct MatCscm : MatCscmFields {
@@ -336,11 +337,11 @@ void MatCscm::check(const Deck& deck, Diagnostics& diagnostics) const {
 }
 
 // By hand. K = 5/3, G = 1; a round surface (ratios 1), the cap far away. Pulled by dev e = (2, -1, -1) under
-// I = 9: s = 2 root3. LAMDA = THETA = 0, ALPHA = root3: half of it is left, I stays. THETA = 0.2: I = 9 + 3
-// x, s = 2 root3 - x = ALPHA + 0.2 I, with x = root3/2: ALPHA = 1.2 root3 - 1.8, s = 3/2 root3, I = 9 + 3/2
-// root3. Squeezed by 0.6 in each direction: I = 9. X0 = 6, R = 0.1 and ALPHA = 10: L = 5. D1 = 1/3 and D2 =
-// 0, W = 1: at X = 7 the compaction is 1 - exp(-1/3), so that I falls from 7 + 5 (1 - exp(-1/3)) to 7: e =
-// I/15.
+// I = 9: s = 2 root_of_3. LAMDA = THETA = 0, ALPHA = root_of_3: half of it is left, I stays. THETA = 0.2: I =
+// 9 + 3 x, s = 2 root_of_3 - x = ALPHA + 0.2 I, with x = root_of_3/2: ALPHA = 1.2 root_of_3 - 1.8, s = 3/2
+// root_of_3, I = 9 + 3/2 root_of_3. Squeezed by 0.6 in each direction: I = 9. X0 = 6, R = 0.1 and ALPHA = 10:
+// L = 5. D1 = 1/3 and D2 = 0, W = 1: at X = 7 the compaction is 1 - exp(-1/3), so that I falls from 7 + 5 (1
+// - exp(-1/3)) to 7: e = I/15.
 constexpr Real compaction_at_7 = 0.28346868942621073;
 const std::string round_cone =
     "1.0,0.0,0.0,0.0,1.0\n5.0,1000.0,0.5,1e-4,1e-8\n100.0,1.0,0.1,1.0,1.0,5.0,1.0\n\n";
@@ -362,7 +363,7 @@ const RegisterStrength<MatCscm> mat_cscm{
      {"1,2.0\n0.0\n1.0,1.6666666666666667,0.27846096908265279,0.2,0.0,0.0\n1.0,0.0,0.0,0.0," + round_cone,
       {2, -1, -1},
       {-3, -3, -3},
-      {-root3 / 2, -4.5 - root3 / 2, -4.5 - root3 / 2},
+      {-root_of_3 / 2, -4.5 - root_of_3 / 2, -4.5 - root_of_3 / 2},
       {},
       {0}},
      {"1,2.0\n0.0\n1.0,1.6666666666666667,10.0,0.0,0.0,0.0\n1.0,0.0,0.0,0.0,1.0\n0.1,6.0,1.0,0."

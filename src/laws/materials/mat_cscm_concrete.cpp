@@ -100,11 +100,11 @@ std::string keep_units(MatCscmConcrete& card, const Conversion& conversion) {
   return "";
 }
 
-using C = MatCscmConcrete;
+using CscmConcrete = MatCscmConcrete;
 // As a body of E = 18.275 GPa cbrt(3), nu = 0.15, by a strain along x, far below its strength.
-constexpr Real uniaxial = 18.275 * 1.4422495703074083 * 0.85 / (1.15 * 0.7),
-               across = 18.275 * 1.4422495703074083 * 0.15 / (1.15 * 0.7);
-const RegisterStrength<C> mat_cscm_concrete{
+constexpr Real elastic_along = 18.275 * 1.4422495703074083 * 0.85 / (1.15 * 0.7),
+               elastic_across = 18.275 * 1.4422495703074083 * 0.15 / (1.15 * 0.7);
+const RegisterStrength<CscmConcrete> mat_cscm_concrete{
     "as MAT_CSCM, with parameters from FPC and DAGG: polynomials of FPC, E = 18.275 GPa (FPC/10 MPa)^(1/3), "
     "PR 0.15, "
     "GFT = (0.021 + 0.0005357 DAGG/mm) (FPC/10 MPa)^0.7 N/mm, GFS = GFT, GFC = 100 GFT",
@@ -112,40 +112,43 @@ const RegisterStrength<C> mat_cscm_concrete{
     {{"1,2.3e-6\n0.0\n0.03,19.0,0\n",
       {-1e-5},
       {},
-      {-1e-5 * uniaxial, -1e-5 * across, -1e-5 * across},
+      {-1e-5 * elastic_along, -1e-5 * elastic_across, -1e-5 * elastic_across},
       {},
       {0}}},
     {.names = {"MAT_CSCM_CONCRETE", "MAT_159_CONCRETE"},
      .purpose = "concrete by a smooth cap surface with damage and rates, with parameters from its strength",
      .id_space = IdSpace::material,
      .title_option = true,
-     .title = &C::title,
+     .title = &CscmConcrete::title,
      .cards =
-         {{.fields = {{"MID", &C::mid, "-", "id that *PART refers to", rules::required_id},
-                      {"RO", &C::ro, "M/L3", "density", rules::required_positive},
-                      {"NPLOT", &C::nplot, "-", "what is shown as plastic strain", no_effect},
-                      {"INCRE", &C::incre, "-", "strain of sub-increments: the return needs none", no_effect},
-                      {"IRATE", &C::irate, "-", "rates of strain count: 1"},
+         {{.fields = {{"MID", &CscmConcrete::mid, "-", "id that *PART refers to", rules::required_id},
+                      {"RO", &CscmConcrete::ro, "M/L3", "density", rules::required_positive},
+                      {"NPLOT", &CscmConcrete::nplot, "-", "what is shown as plastic strain", no_effect},
+                      {"INCRE", &CscmConcrete::incre, "-", "strain of sub-increments: the return needs none",
+                       no_effect},
+                      {"IRATE", &CscmConcrete::irate, "-", "rates of strain count: 1"},
                       {"ERODE",
-                       &C::erode,
+                       &CscmConcrete::erode,
                        "-",
                        "elements fail at damage 0.99 and a principal strain above ERODE - 1; below 1: never",
                        {.check = Check::not_negative}},
-                      {"RECOV", &C::recov, "-", "share of brittle damage that stays under pressure"},
-                      {"ITRETRC", &C::itretrc, "-", "the cap moves back: 1", unsupported}}},
-          {.fields = {{"PRED", &C::pred, "-", "damage at the start", {.check = Check::not_negative}}}},
+                      {"RECOV", &CscmConcrete::recov, "-",
+                       "share of brittle damage that stays under pressure"},
+                      {"ITRETRC", &CscmConcrete::itretrc, "-", "the cap moves back: 1", unsupported}}},
+          {.fields =
+               {{"PRED", &CscmConcrete::pred, "-", "damage at the start", {.check = Check::not_negative}}}},
           {.fields = {{"FPC",
-                       &C::fpc,
+                       &CscmConcrete::fpc,
                        "-",
                        "strength in compression, in the units of UNITS; 0: 30 MPa",
                        {.check = Check::not_negative}},
                       {"DAGG",
-                       &C::dagg,
+                       &CscmConcrete::dagg,
                        "-",
                        "largest aggregate, in the units of UNITS; 0: 19 mm",
                        {.check = Check::not_negative}},
                       {"UNITS",
-                       &C::units,
+                       &CscmConcrete::units,
                        "-",
                        "0 GPa mm ms, 1 MPa mm ms, 2 MPa mm s, 3 psi inch s, 4 Pa m s",
                        {.allowed = {0, 1, 2, 3, 4}}}}}},

@@ -58,26 +58,26 @@ struct MatModifiedJohnsonCook : MatModifiedJohnsonCookFields {
 // Cockcroft and Latham: s1 = 2, WC = 8: D = 1/4. Voce: Q1 = 2 with C1 = ln 2 at de = 1: A + 1; A = 2: 3.
 // Heated with RO = 2, CP = 3, XSI = 1/2: by q de/12: A = 3, C = 0: de = 1, q = 3: 1/4. ALPHA = 0.1: mean = -5
 // 0.1/4.
-const std::array<Real, 6> pull{2, -1, -1}, half{2, -1, -1};
-constexpr Real ln2 = 0.69314718055994531;
-const std::string steel = "1,2.0,2.5,0.25";
-StrengthReference steps(const std::string& cards, const std::array<Real, 6>& after,
-                        std::vector<Real> history) {
-  return {cards, pull, {}, after, {0}, std::move(history)};
+const std::array<Real, 6> pulled_by_2{2, -1, -1}, left_of_it{2, -1, -1};
+constexpr Real log_of_2 = 0.69314718055994531;
+const std::string iron = "1,2.0,2.5,0.25";
+StrengthReference flows_to(const std::string& cards, const std::array<Real, 6>& after,
+                           std::vector<Real> history) {
+  return {cards, pulled_by_2, {}, after, {0}, std::move(history)};
 }
-using J = MatModifiedJohnsonCook;
-const RegisterStrength<J> mat_modified_johnson_cook{
+using ModifiedJohnsonCookCard = MatModifiedJohnsonCook;
+const RegisterStrength<ModifiedJohnsonCookCard> mat_modified_johnson_cook{
     "q = sqrt(3/2 s:s) <= (A + B e^N + Q1 (1 - exp(-C1 e)) + Q2 (1 - exp(-C2 e))) (1 + rate/E0DOT)^C (1 - "
     "T*^M), of the "
     "stress over 1 - BETA D; dT = XSI q de/(RO CP); dD = DC de/(e_f - PD) where e > PD, e_f = (D1 + D2 "
     "exp(D3 mean/q)) (1 "
     "+ rate/E0DOT)^D4 (1 + D5 T*), or max(s1, 0) de/WC; fails at D = DC, T = TC or the shear stress TAUC",
     "Borvik, Hopperstad, Berstad & Langseth 2001; Cockcroft & Latham 1968",
-    {steps(steel + "\n1.0\n1.0,0.0,0.0,1.0\n\n0.5,0.2,4.0\n", half, {1, 2.0 / 19}),
-     steps(steel + "\n1.0,,,,0,1\n1.0,0.0,0.0,1.0\n\n1.0,8.0\n", half, {1, 0.25}),
-     steps(steel + fmt::format("\n\n2.0\n2.0,{:.16g}\n\n", ln2), half, {1}),
-     steps(steel + ",0.0,0.5,3.0,0.1\n0.0,0.0,1e9\n3.0,0.0,0.0,0.0,1.0\n\n\n", {2 - 0.125, -1.125, -1.125},
-           {1, 0.25})},
+    {flows_to(iron + "\n1.0\n1.0,0.0,0.0,1.0\n\n0.5,0.2,4.0\n", left_of_it, {1, 2.0 / 19}),
+     flows_to(iron + "\n1.0,,,,0,1\n1.0,0.0,0.0,1.0\n\n1.0,8.0\n", left_of_it, {1, 0.25}),
+     flows_to(iron + fmt::format("\n\n2.0\n2.0,{:.16g}\n\n", log_of_2), left_of_it, {1}),
+     flows_to(iron + ",0.0,0.5,3.0,0.1\n0.0,0.0,1e9\n3.0,0.0,0.0,0.0,1.0\n\n\n", {2 - 0.125, -1.125, -1.125},
+              {1, 0.25})},
     mat_modified_johnson_cook_table()};
 
 }  // namespace
