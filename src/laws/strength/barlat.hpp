@@ -14,7 +14,7 @@
 namespace courant {
 
 /// The same with coefficients of its own, as other surfaces of the kind have them: K1 = k s, K2^2 = (d s)^2 +
-/// t^2 s_ab^2 beside it, and alone K3^2 = (e s)^2 + u^2 s_ab^2 in place of K2, s = (s_a, s_b).
+/// t^2 s_ab^2 beside it, and alone K3^2 = (e s)^2 + u^2 s_ab^2 instead of K2, s = (s_a, s_b).
 struct SheetSurface {
   Real A = 1, C = 1, M = 2;
   std::array<Real, 2> k{}, d{}, e{};
