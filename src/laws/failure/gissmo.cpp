@@ -158,6 +158,11 @@ void MatAddDamageGissmo::check(const Deck& deck, const Model& model, Diagnostics
   if (card_of(deck, mid) != this)
     deck.error(diagnostics, *this, "MID", fmt::format("material {} has two of these cards", mid),
                "leave one of them out");
+  for (const ModelPart& part : model.parts)
+    if (part.mid == mid && part.has_beam)
+      deck.error(diagnostics, *this, "MID",
+                 fmt::format("the beams of part {} have material {}", part.id, mid),
+                 "solids and shells have this damage");
   if (diagnostics.errors() > 0) return;
   for (const StrengthEntry& kind : strength_registry()) {
     if (kind.keyword.starts_with("MAT_ADD_")) continue;

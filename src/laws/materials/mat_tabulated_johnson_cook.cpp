@@ -51,7 +51,7 @@ class TabulatedJohnsonCook : public StrengthLaw {
     curves(card.tabk1, yield_.curves, yield_.rates), curves(card.tabkt, warm_.curves, warm_.rates);
     yield_.logarithmic = !yield_.rates.empty() && yield_.rates.front() < 0;
     if (yield_.curves.size() > 1) law_.rate = yield_.depends_on = YieldRate::of_flow;
-    if (card.numint > 1) failing_layers = static_cast<int>(card.numint);
+    failing_layers = static_cast<int>(card.numint);
   }
   Real bulk_modulus() const override { return law_.lambda + 2 * law_.G / 3; }
   Real shear_modulus() const override { return law_.G; }

@@ -10,6 +10,8 @@
 #include "law_from_cards.hpp"
 #include "model/model.hpp"
 
+namespace cscm_test {
+
 using namespace courant;
 using test::DrivenPoint;
 using test::law_from_cards;
@@ -353,3 +355,5 @@ TEST(CscmConcrete, UnitsAreOneMaterial) {
     EXPECT_GT(damage, 0.05);
   }
 }
+
+}  // namespace cscm_test

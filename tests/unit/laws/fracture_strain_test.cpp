@@ -11,6 +11,8 @@
 #include "driven_point.hpp"
 #include "law_from_cards.hpp"
 
+namespace fracture_strain_test {
+
 using namespace courant;
 using test::DrivenPoint;
 using test::law_from_cards;
@@ -176,3 +178,5 @@ TEST(Gissmo, MayOnlyCount) {
   EXPECT_EQ(bar.of("failure_ratio"), 0);
   EXPECT_NEAR(bar.stress[0], 300 + 500 * bar.of("plastic_strain"), 1e-6);
 }
+
+}  // namespace fracture_strain_test

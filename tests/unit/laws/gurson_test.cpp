@@ -8,6 +8,8 @@
 #include "driven_point.hpp"
 #include "law_from_cards.hpp"
 
+namespace gurson_test {
+
 using namespace courant;
 using test::DrivenPoint;
 using test::law_from_cards;
@@ -121,3 +123,5 @@ TEST(Gurson, KnowsTheSizeOfItsElement) {
     EXPECT_GT(a.of("failure_ratio"), 0);
   }
 }
+
+}  // namespace gurson_test

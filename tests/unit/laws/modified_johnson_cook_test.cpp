@@ -8,6 +8,8 @@
 #include "driven_point.hpp"
 #include "law_from_cards.hpp"
 
+namespace modified_johnson_cook_test {
+
 using namespace courant;
 using test::DrivenPoint;
 using test::law_from_cards;
@@ -102,3 +104,5 @@ TEST(ModifiedJohnsonCook, FailsByHeatAndShearToo) {
   EXPECT_NEAR(sheared.of("failure_ratio"), std::max(sheared.stress[0] / 1000, sheared.of("damage")), 1e-6);
   EXPECT_GT(hot.of("temperature_rise") / 20, hot.of("damage"));
 }
+
+}  // namespace modified_johnson_cook_test
