@@ -208,7 +208,8 @@ class Cscm : public StrengthLaw {
     out.I = from + root_below(I - from, excess);
     excess(out.I - from);
     out.s = std::min(strength, s);
-    out.compaction = compacted + (I - out.I) / (3 * c_.k);
+    constexpr Real round_off = 1e-15;  // the root is below W
+    out.compaction = std::min(compacted + (I - out.I) / (3 * c_.k), c_.w * (1 - round_off));
   }
 
   /// What a rate does to a point: overstress E rate eta and the share of the step's flow that happens.
@@ -355,14 +356,14 @@ const RegisterStrength<MatCscm> mat_cscm{
     "under pressure, by GFT, GFS, GFC over the element's size",
     "Murray 2007, FHWA-HRT-05-062; Rubin 1991; Simo, Kennedy & Govindjee 1988",
     {{"1,2.0\n0.0\n1.0,1.6666666666666667,1.7320508075688772,0.0,0.0,0.0\n1.0,0.0,0.0,0.0," + round_cone,
-      {2, -1, -1},
-      {-3, -3, -3},
+      {1.8, -1.2, -1.2},
+      {-2, -2, -2},
       {-1, -4, -4},
       {},
       {0}},
      {"1,2.0\n0.0\n1.0,1.6666666666666667,0.27846096908265279,0.2,0.0,0.0\n1.0,0.0,0.0,0.0," + round_cone,
-      {2, -1, -1},
-      {-3, -3, -3},
+      {1.8, -1.2, -1.2},
+      {-2, -2, -2},
       {-root_of_3 / 2, -4.5 - root_of_3 / 2, -4.5 - root_of_3 / 2},
       {},
       {0}},
