@@ -44,7 +44,9 @@ class Gissmo : public FailingLaw {
     around(block, [this](const PointBlock& own) { of_->update(own); });
   }
   void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const override {
-    around(block, [&](const PointBlock& own) { of_->update_in_plane_stress(own, rate_zz); });
+    PointBlock whole = block;
+    whole.rate[2] = rate_zz;  // as the law leaves it
+    around(whole, [&](const PointBlock& own) { of_->update_in_plane_stress(own, rate_zz); });
   }
 
  private:
