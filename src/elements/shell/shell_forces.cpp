@@ -73,6 +73,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       for (const HistoryVariable& h : layer_of(p).law->history())
         history_.push_back(&layer_history_of(group, h, p));
     for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
+    lay_sizes();
     start(world, {});
     if (options.scaling.step > 0) scale_masses(options.scaling, world);
     limit_to_frequency(held, world);
@@ -377,9 +378,16 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   void reset() {
     for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
+    lay_sizes();
     if (hourglass_force_) hourglass_force_->fill(0);
     if (flow_stress_) flow_stress_->fill(0);
     if (viscous_) viscous_->fill(0);
+  }
+
+  void lay_sizes() {
+    for (Field<Real>* h : history_)
+      for (Index e = 0; h->info().name.rfind(element_size, 0) == 0 && e < group_.size(); ++e)
+        (*h)[e] = std::sqrt(group_.V0[e] / thickness_[e]);
   }
 
   Real total(const Field<Real>& field) const {
