@@ -89,7 +89,7 @@ namespace {
 /// A cable 2 long along x, of K = E CA/L = 1000 and mass 0.1, its end driven with 0.5.
 std::unique_ptr<Simulation> cable(const std::string& law, const std::string& more) {
   BeamDeck deck;
-  deck.at({0, 0, 0}, ",7,7"), deck.at({2, 0, 0}, ",6,7");
+  deck.at({0, 0, 0}, ",7,7"), deck.at({2, 0, 0}, ",5,7");
   deck.beam(1, 1, 2);
   deck.part(1, "6\n1e-4,0.0,0,1e-4\n", "*MAT_CABLE_DISCRETE_BEAM\n" + law + "\n");
   deck.cards +=
@@ -113,7 +113,7 @@ TEST(ElementTerms, CablesCarryTensionAlone) {
   const Real K = 1000, F = tension_of(*s), length = 2 + 0.5 * (s->clock().t - s->clock().dt_old);
   EXPECT_NEAR(s->clock().dt_old / 0.1, std::sqrt(0.1 * 1e-2 * 0 + 1000.0 * 1e-4 / (K + F / length)), 2e-4);
   BeamDeck slack;
-  slack.at({0, 0, 0}, ",7,7"), slack.at({2, 0, 0}, ",6,7");
+  slack.at({0, 0, 0}, ",7,7"), slack.at({2, 0, 0}, ",5,7");
   slack.beam(1, 1, 2);
   slack.part(1, "6\n1e-4,0.0,0,1e-4\n", "*MAT_CABLE_DISCRETE_BEAM\n1,1000.0,2e7\n");
   slack.velocity([](int n) { return Vec(n == 2 ? -1 : 0, 0, 0); });
@@ -175,7 +175,7 @@ TEST(ElementTerms, DampingByStiffnessIsBetaTimesTheElasticRate) {
   PointBlock points;
   points.count = 1, points.dt = dt;
   for (std::size_t k = 0; k < 6; ++k) points.rate[k] = &rate[k], points.stress[k] = &stress[k];
-  const Real angle = 0.2, no = 0, half = std::tan(0.5 * angle), volume = 3;
+  const Real angle = 0.8, no = 0, half = std::tan(0.5 * angle), volume = 3;
   Real work = 0;
   const auto add = [&](const Real& about_z) {
     damping.add(law, 0, points, {0, {&no, &no, &about_z}, &volume, &work});
@@ -285,7 +285,7 @@ TEST(ElementTerms, SpringsByTheirCards) {
                           {"0,0,3.0,0,0.05", "0,0.0,0.0", 15, 0.375},
                           {"0,0,1.0,0,0.05", "0,0.5,4.0", 5 * (1 + 0.5 * 2 / 4), 0.125}}) {
     const std::string deck =
-        "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*NODE\n1,0.0,0.0,0.0,7,7\n2,1.0,0.0,0.0,6,7\n*PART\nspring\n1,"
+        "*KEYWORD\n*CONTROL_TERMINATION\n1.0\n*NODE\n1,0.0,0.0,0.0,7,7\n2,1.0,0.0,0.0,5,7\n*PART\nspring\n1,"
         "1,1\n"
         "*SECTION_DISCRETE\n1," +
         one.section + "\n*MAT_SPRING_ELASTIC\n1,100.0\n*ELEMENT_DISCRETE\n1,1,1,2," + one.element.substr(2) +
@@ -328,6 +328,7 @@ TEST(ElementTerms, ShellsAnswerEachMotionByItsOwnModulus) {
       {"tilt", [](const Vec& x) { return Vec(0, 0, x[0]); }, [](const Vec&) { return Vec(0, -1, 0); }, 0}};
   for (const int corners : {4, 3})
     for (const Case& one : cases) {
+      if (corners == 3 && std::string(one.what) == "twist") continue;  // no linear field: it shears, too
       test::ShellPatch g = test::ShellPatch::plate(1, 1, corners, 0, t);
       g.control.shear_factor = 5.0 / 6;
       for (std::size_t n = 0; n < g.x.size(); ++n) {
@@ -347,6 +348,37 @@ TEST(ElementTerms, ShellsAnswerEachMotionByItsOwnModulus) {
       EXPECT_NEAR(std::abs(power), 2 * one.energy * dt, 6e-3 * dt * (0.001 + one.energy))
           << one.what << corners;
     }
+}
+
+// A shell whose nodes turn and do nothing else: where it is deleted in the midst of its motion, what its
+// moments did in the half step before is taken back. That is half of what a step changes of its energy.
+TEST(ElementTerms, DeletionTakesBackTheWorkOfMoments) {
+  const auto shell = [](Real time) {
+    test::ShellDeck deck;
+    deck.plate(1, 1, 1, 1, 1);
+    deck.part(1, 0.3, "*MAT_ELASTIC\n1,1000.0,1.0E6,0.3\n");
+    deck.cards += fmt::format("*MAT_ADD_EROSION\n1\n0.0,0.0,0.0,0.0,0.0,0.0,0.0,{:.9g}\n", time);
+    deck.hold(1, "xyz", [](const Vec&) { return true; });
+    auto s = simulation_of(deck.text(1));
+    Field<Real>& spin = *shared_fields::angular_velocity.find(s->world().nodes.fields);
+    for (Index n = 0; n < 4; ++n) spin.set(n, Vec(0, s->world().nodes.x.data(0)[n] > 0.5 ? 1 : -1, 0));
+    test::start_ledger(*s);
+    return s;
+  };
+  auto whole = shell(1e9);
+  Real before = 0, most = 0, when = 0;
+  for (int k = 0; k < 100; ++k)
+    whole->step([&](World& world, const Clock& clock, const std::string&) {
+      sample_energy(world, clock);
+      if (world.energy.internal - before > most) most = world.energy.internal - before, when = clock.t;
+      before = world.energy.internal;
+    });
+  ASSERT_GT(most, 0);
+  auto s = shell(when - 1e-9);
+  while (s->world().counters["deleted_elements"] == 0 && s->clock().t < 2 * when) s->step(do_nothing);
+  ASSERT_EQ(s->world().counters["deleted_elements"], 1);
+  s->step([&](World& world, const Clock& clock, const std::string&) { sample_energy(world, clock); });
+  EXPECT_NEAR(s->world().energy.unexplained(), 0, 0.15 * most);
 }
 
 }  // namespace element_terms_test

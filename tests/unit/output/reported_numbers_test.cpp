@@ -281,7 +281,8 @@ TEST(ReportedNumbers, InvariantsOfStress) {
     EXPECT_NEAR(found.at("pressure" + end)[0], p, 1e-12);
     EXPECT_NEAR(found.at("von_mises" + end)[0], std::sqrt(1.5 * dev.squaredNorm()), 1e-12);
     const auto& s = found.at("principal_stress" + end);
-    EXPECT_GT(s[0], s[1]), EXPECT_GT(s[1], s[2]);
+    EXPECT_GT(s[0], s[1]);
+    EXPECT_GT(s[1], s[2]);
     for (const Real one : s) EXPECT_NEAR((m - one * Matrix::Identity()).determinant(), 0, 1e-9);
     EXPECT_NEAR(s[0] + s[1] + s[2], m.trace(), 1e-12);
   }
