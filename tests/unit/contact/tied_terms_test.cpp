@@ -231,7 +231,7 @@ TEST(TiedTerms, TiedNodesTurnWithTheirFace) {
   deck.cards +=
       "*PART\nupper\n2,1,1\n*CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET_ID\n7,glue\n2,1,3,3\n\n\n";
   auto s = simulation_of(deck.text(1));
-  if (!s) return;
+  ASSERT_NE(s, nullptr);
   const FieldSet& fields = s->world().nodes.fields;
   Field<Real>& spin = *shared_fields::angular_velocity.find(fields);
   const Field<Real>* angle = shared_fields::rotation.find(fields);

@@ -116,6 +116,18 @@ TEST(TouchBalance, DampingSeesTheVelocityOfTheFoot) {
   EXPECT_NEAR(force(true), force(false) - k * 1e-5, 1e-8);
 }
 
+// Beside a held face the node has the spring alone: 2 xi sqrt(k m) v.
+TEST(TouchBalance, HeldFacesAreOfNoMassInDamping) {
+  for (const Real m : {1.0, 30.0}) {
+    TouchScene scene;
+    scene.law.vdc = 10;
+    scene.build();
+    scene.world.nodes.m[4] = m;
+    come(scene, Vec(0, 0, -0.1));
+    EXPECT_NEAR(scene.force_on(4)[2], k * (0.004 + 1e-5) + 2 * 0.1 * std::sqrt(k * m) * 0.1, 1e-12) << m;
+  }
+}
+
 // The friction is at most FS of push and damping together.
 TEST(TouchBalance, FrictionIsBoundedByPushAndDamping) {
   TouchScene scene;
@@ -273,25 +285,24 @@ TEST(TouchBalance, MiddleVelocitiesAreThoseOfHalfTheChange) {
   EXPECT_EQ(v(7), Vec(1, 2, 3));
 }
 
-// A touch that comes has its spring counted before: it is due when the gap of both thicknesses is closed.
+// A touch that comes within a step has its spring counted before: as soon as the gap of both thicknesses is
+// less than what the node goes in a step.
 TEST(TouchBalance, WhatComesIsCountedFromItsThickness) {
-  TouchScene scene;
-  scene.at = Vec(0.5, 0.2, 0.103), scene.v = Vec(0, 0, -1);
-  scene.change = [](ContactSides& sides) { sides.faces[0].r = 0.06, sides.nodes[0].r = 0.04; };
-  scene.build();
-  scene.step(0), scene.step(1e-5), scene.step(1e-3);
-  const Real due = 0.103 - 1e-5 - 1e-3 - 0.1;
-  scene.clock.dt_old = 1e-3;
-  EXPECT_EQ(scene.force_on(4)[2], 0);
-  // the step of the spring, 0.87/omega = 0.5, is longer: that of the touch which is not there yet has no
-  // bound
-  const Real dt = scene.contact->limit(scene.world, scene.clock).dt;
-  EXPECT_GT(dt, due);
-  scene.step(3e-3);
-  EXPECT_NEAR(scene.contact->report().energy_stored, 0.5 * k * std::pow(3e-3 - due, 2), 1e-12);
+  for (const Real gap : {0.005, 0.0005}) {
+    TouchScene scene;
+    scene.at = Vec(0.5, 0.2, 0.1 + gap + 0.0011), scene.v = Vec(0, 0, -1);
+    scene.change = [](ContactSides& sides) { sides.faces[0].r = 0.06, sides.nodes[0].r = 0.04; };
+    scene.build();
+    scene.step(0), scene.step(1e-4), scene.step(1e-3);
+    EXPECT_EQ(scene.force_on(4)[2], 0);
+    EXPECT_EQ(std::isfinite(scene.contact->limit(scene.world, scene.clock).dt), gap < 1e-3) << gap;
+    scene.step(3e-3 + gap);
+    EXPECT_NEAR(scene.contact->report().energy_stored, 0.5 * k * 9e-6, 1e-12) << gap;
+  }
 }
 
-// Behind a death a birth begins again: what was in touch then is forgotten, and what is inside gives no force.
+// Behind a death a birth begins again: what was in touch then is forgotten, and what is inside gives no
+// force.
 TEST(TouchBalance, NothingOfATouchIsLeftBehindItsDeath) {
   TouchScene scene;
   scene.law.fs = scene.law.fd = 0.5, scene.law.death = 1;

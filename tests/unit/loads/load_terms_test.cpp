@@ -186,7 +186,7 @@ TEST(LoadTerms, DrivesRoundAnAxisStayOnTheirCircle) {
   SolidDeck deck = cube(
       "*BOUNDARY_PRESCRIBED_MOTION_SET\n1,9,0,8,1.0\n0.3,-0.1,0.0\n*DEFINE_CURVE\n8\n0.0,50.0\n9.0,50.0\n");
   auto s = simulation_of(deck.text(1));
-  if (!s) return;
+  ASSERT_NE(s, nullptr);
   const Vec start = s->world().nodes.x.vec(0);
   for (int k = 0; k < 40; ++k) s->step(do_nothing);
   const Vec now = s->world().nodes.x.vec(0);

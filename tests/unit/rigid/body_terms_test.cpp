@@ -241,18 +241,24 @@ TEST(BodyTerms, GivenInertiaIsWhereAndAlongWhatItsCardSays) {
 
 // Two bricks of densities 1000 and 3000 as one body, and what holds nodes of it: RC about x of the centre.
 TEST(BodyTerms, PartsOfABodyWeighByTheirOwnDensity) {
-  test::SolidDeck deck;
-  deck.block(Vec(0.2, 0.2, 0.2), 1, 1, 1, 1);
-  deck.block(Vec(0.2, 0.2, 0.2), 1, 1, 1, 2, [](const Vec& x) { return Vec(x + Vec(0.4, 0, 0)); });
-  deck.cards =
-      "*SECTION_SOLID\n1,1\n*PART\none\n1,1,1\n*PART\ntwo\n2,1,2\n*MAT_RIGID\n1,1000.0,1.0E9,0.3\n0\n0\n"
-      "*MAT_RIGID\n2,3000.0,1.0E9,0.3\n0\n0\n*CONSTRAINED_RIGID_BODIES\n1,2\n";
-  const RigidBody b = simulation_of(deck.text(1))->bodies()->bodies().front();
-  EXPECT_NEAR(b.m, 32, 1e-12);
-  EXPECT_NEAR((b.x - Vec(0.25 * 0.1 + 0.75 * 0.5, 0.1, 0.1)).norm(), 0, 1e-12);
-  const Matrix J = (8 + 24) * 0.04 / 6 * Matrix::Identity() + 8 * about(Vec(0.1 - b.x[0], 0, 0)) +
-                   24 * about(Vec(0.5 - b.x[0], 0, 0));
-  EXPECT_NEAR((b.J0 - J).norm(), 0, 1e-12);
+  for (const bool share_nodes : {false, true}) {
+    const Real second = share_nodes ? 0.3 : 0.5;  // its centre
+    test::SolidDeck deck;
+    deck.block(Vec(share_nodes ? 0.4 : 0.2, 0.2, 0.2), share_nodes ? 2 : 1, 1, 1, 1);
+    if (share_nodes)
+      deck.elements.replace(deck.elements.find('\n') + 9, 8, "       2");
+    else
+      deck.block(Vec(0.2, 0.2, 0.2), 1, 1, 1, 2, [](const Vec& x) { return Vec(x + Vec(0.4, 0, 0)); });
+    deck.cards =
+        "*SECTION_SOLID\n1,1\n*PART\none\n1,1,1\n*PART\ntwo\n2,1,2\n*MAT_RIGID\n1,1000.0,1.0E9,0.3\n0\n0\n"
+        "*MAT_RIGID\n2,3000.0,1.0E9,0.3\n0\n0\n*CONSTRAINED_RIGID_BODIES\n1,2\n";
+    const RigidBody b = simulation_of(deck.text(1))->bodies()->bodies().front();
+    EXPECT_NEAR(b.m, 32, 1e-12);
+    EXPECT_NEAR((b.x - Vec(0.25 * 0.1 + 0.75 * second, 0.1, 0.1)).norm(), 0, 1e-12) << share_nodes;
+    const Matrix J = (8 + 24) * 0.04 / 6 * Matrix::Identity() + 8 * about(Vec(0.1 - b.x[0], 0, 0)) +
+                     24 * about(Vec(second - b.x[0], 0, 0));
+    EXPECT_NEAR((b.J0 - J).norm(), 0, 1e-12) << share_nodes;
+  }
 }
 
 TEST(BodyTerms, SpcOfRotationsOfANodeHoldThoseOfItsBody) {
@@ -299,6 +305,52 @@ TEST(BodyTerms, MomentsOfShellsTurnTheBodyOfTheirNodes) {
   }
   EXPECT_GT(turned, 0.03 * start.norm());
   EXPECT_NEAR((spin(s->world()) - start).norm(), 0, 1e-4 * start.norm());
+}
+
+// Along held axes nothing moves a body: forces and moments on it, impulses before the start, and the ledger.
+TEST(BodyTerms, HeldAxesTakeNothingUp) {
+  JointDeck deck;
+  deck.body({.x = {1, 2, 3}, .m = 2, .J = Vec(0.1, 0.2, 0.25).asDiagonal(), .con1 = 1, .con2 = 2});
+  deck.more = "*LOAD_NODE_POINT\n1,1,3,4.0\n1,2,3,5.0\n1,3,3,6.0\n" + constant;
+  auto s = simulation_of(deck.text(1));
+  s->step(do_nothing);
+  const RigidBody& b = s->bodies()->bodies()[0];
+  const Vec r = s->world().nodes.x.vec(0) - b.x, moment = r.cross(Vec(4, 5, 6));
+  EXPECT_NEAR((b.force - Vec(0, 5, 6)).norm(), 0, 1e-12);
+  EXPECT_NEAR((b.moment - Vec(moment[0], 0, moment[2])).norm(), 0, 1e-3 * moment.norm())
+      << "r of the step before";
+  EXPECT_EQ(b.moment[1], 0);
+  auto& bodies = const_cast<RigidBodies&>(*s->bodies());
+  const Vec v = b.v, L = b.L;
+  bodies.strike_at_start(0, Vec(1, 1, 1), Vec(0.1, 0.1, 0.1), s->world());
+  EXPECT_NEAR((b.v - v - Vec(0, 0.5, 0.5)).norm(), 0, 1e-12);
+  EXPECT_NEAR((b.L - L - Vec(0.1, 0, 0.1)).norm(), 0, 1e-12);
+  for (std::size_t k = 0; k < b.nodes.size(); ++k)
+    EXPECT_NEAR((s->world().nodes.v.vec(b.nodes[k]) - b.v - b.omega.cross(b.X[k])).norm(), 0, 1e-12);
+  EXPECT_GT(b.omega.norm(), 0.1);
+
+  JointDeck at_rest;
+  at_rest.ground();
+  EXPECT_EQ(simulation_of(at_rest.text(1))->bodies()->kinetic_energy(), 0);
+}
+
+// Of the half step: F (v + dt F/4m) dt/2 and M omega dt/2; below what leapfrog keeps by (F dt)^2/8m.
+TEST(BodyTerms, TheLedgerOfAHalfStepIsThatOfItsForces) {
+  JointDeck deck;
+  deck.body({.m = 2, .J = Vec(0.1, 0.2, 0.25).asDiagonal(), .v = {1, 2, 3}, .omega = {0.3, 0, 0}});
+  deck.more = "*LOAD_RIGID_BODY\n1,1,3,40.0\n1,5,3,0.7\n" + constant +
+              "*CONTROL_TIMESTEP\n0.0,0.9,0,0.0,0.0,4\n*DEFINE_CURVE\n4\n0.0,0.01\n9.0,0.01\n";
+  auto s = simulation_of(deck.text(1));
+  s->step(do_nothing);
+  s->step([&](World& world, const Clock& clock, const std::string&) {
+    EnergyLedger ledger;
+    s->bodies()->sample(world, clock, ledger);
+    const RigidBody& b = s->bodies()->bodies()[0];
+    const Real dt = clock.dt_old;
+    EXPECT_NEAR(ledger.below, 0.125 * dt * dt / 2 * 1600, 1e-12);
+    EXPECT_NEAR(ledger.half_step, 0.5 * dt * (40 * (b.v[0] + 0.25 * dt / 2 * 40) + 0.7 * b.omega[0]), 1e-12);
+    EXPECT_NEAR(ledger.kinetic, b.v.squaredNorm() + 0.5 * b.omega.dot(b.L), 1e-12);
+  });
 }
 
 }  // namespace body_terms_test
