@@ -221,6 +221,24 @@ TEST(TiedTerms, CarriedNodesReportTheForceThatMovesThem) {
   EXPECT_NEAR(reported[0], expected[0], 1e-6 * expected[0]);
 }
 
+// A face that is driven carries a block: the block takes nothing of the velocities that are prescribed.
+TEST(TiedTerms, DrivenFacesKeepTheirVelocity) {
+  test::SolidDeck deck;
+  deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
+  deck.block(Vec(0.4, 0.4, 0.4), 1, 1, 1, 2, [](const Vec& x) { return Vec(x + Vec(0.2, 0.3, 1)); });
+  deck.cards =
+      "*SECTION_SOLID\n1,1\n*PART\nbelow\n1,1,1\n*PART\nabove\n2,1,1\n*MAT_ELASTIC\n1,1000.0,1.0E6,0.0\n"
+      "*CONTACT_TIED_NODES_TO_SURFACE_ID\n7,glue\n2,1,3,3\n\n\n*BOUNDARY_PRESCRIBED_MOTION_SET\n1,1,0,1\n"
+      "*DEFINE_CURVE\n1\n0.0,1.0\n1.0,3.0\n";
+  deck.node_set(1, [](const Vec& x) { return x[2] == 0 || (x[2] == 1 && std::abs(x[0] - 0.5) == 0.5); });
+  auto s = simulation_of(deck.text(1));
+  for (int k = 0; k < 5; ++k) {
+    s->step(do_nothing);
+    const Real t = s->clock().t - 0.5 * s->clock().dt_old;
+    for (Index n = 0; n < 8; ++n) EXPECT_NEAR(s->world().nodes.v.data(0)[n], 1 + 2 * t, 1e-12) << n;
+  }
+}
+
 // A shell whose edge is tied to a plate that turns: angles and rates of the tied nodes are those of the face,
 // of the same step.
 TEST(TiedTerms, TiedNodesTurnWithTheirFace) {

@@ -116,6 +116,22 @@ TEST(TouchBalance, DampingSeesTheVelocityOfTheFoot) {
   EXPECT_NEAR(force(true), force(false) - k * 1e-5, 1e-8);
 }
 
+// Beside an edge, where the force fades, damping acts along the same unit normal: 2 xi sqrt(k m) v.n.
+TEST(TouchBalance, DampingBesideAnEdgeIsAlongTheUnitNormal) {
+  const auto force = [](Real vdc) {
+    TouchScene scene;
+    scene.at = Vec(0.9, 0.2, 0.001), scene.law.vdc = vdc;
+    scene.build();
+    scene.step(0), scene.step(0.021);
+    const Vec v(0.05, 0, -0.1), to = Vec(1.055, 0.2, -0.02) - 1e-6 * v - scene.world.nodes.x.vec(4);
+    for (Index n = 4; n < 8; ++n) scene.world.nodes.v.set(n, v), scene.world.nodes.x.add(n, to);
+    scene.step(1e-6);
+    return scene.force_on(4);
+  };
+  const Vec plain = force(0), damping = force(10) - plain, n = plain.normalized();
+  EXPECT_NEAR((damping + 2 * 0.1 * std::sqrt(k) * Vec(0.05, 0, -0.1).dot(n) * n).norm(), 0, 1e-9);
+}
+
 // Beside a held face the node has the spring alone: 2 xi sqrt(k m) v.
 TEST(TouchBalance, HeldFacesAreOfNoMassInDamping) {
   for (const Real m : {1.0, 30.0}) {

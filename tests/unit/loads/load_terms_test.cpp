@@ -187,15 +187,19 @@ TEST(LoadTerms, DrivesRoundAnAxisStayOnTheirCircle) {
       "*BOUNDARY_PRESCRIBED_MOTION_SET\n1,9,0,8,1.0\n0.3,-0.1,0.0\n*DEFINE_CURVE\n8\n0.0,50.0\n9.0,50.0\n");
   auto s = simulation_of(deck.text(1));
   ASSERT_NE(s, nullptr);
-  const Vec start = s->world().nodes.x.vec(0);
+  const Vec centre(0, 0.3, -0.1);
+  const auto from_axis = [&](Index n) {
+    Vec r = s->world().nodes.x.vec(n) - centre;
+    r[0] = 0;
+    return r;
+  };
+  const Vec first = from_axis(0), last = from_axis(7);
   for (int k = 0; k < 40; ++k) s->step(do_nothing);
-  const Vec now = s->world().nodes.x.vec(0);
-  const Vec moved = now - start;
-  EXPECT_GT(moved.norm(), 0.01);
-  // all nodes turn by the same angle: distances stay
-  for (Index n = 1; n < 8; ++n)
-    EXPECT_NEAR((s->world().nodes.x.vec(n) - now).norm(),
-                (deck.nodes[static_cast<std::size_t>(n)] - deck.nodes[0]).norm(), 1e-9);
+  for (const auto& [n, before] : {std::pair(Index(0), first), {Index(7), last}}) {
+    const Vec now = from_axis(n);
+    EXPECT_NEAR(now.norm(), before.norm(), 1e-9);
+    EXPECT_NEAR(std::atan2(before.cross(now)[0], before.dot(now)), 50 * s->clock().t, 1e-9);
+  }
 }
 
 // A triangle has half of the area of the square, a warped quadrilateral half of the product of its diagonals;
@@ -217,6 +221,15 @@ TEST(LoadTerms, PressureActsOnTheAreaOfItsFaces) {
     EXPECT_NEAR((p.cwiseAbs() - impulse.cwiseAbs()).norm(), 0, 2e-3 * impulse.norm()) << one.cards;
     EXPECT_LT(test::energy_error_of_a_step(*s), 0.05) << one.cards;
   }
+  // of a face with corners at 0, (0.3, 0), (0.2, 0.2), (0, 0.2): half of the product of its diagonals
+  SolidDeck askew;
+  askew.block(Vec(0.2, 0.2, 0.2), 1, 1, 1, 1,
+              [](const Vec& x) { return Vec(x[0] > 0.1 && x[1] < 0.1 ? 0.3 : x[0], x[1], x[2]); });
+  askew.cards = elastic + even_steps + "*LOAD_SEGMENT\n1,100.0,0.0,1,2,4,3\n" + constant;
+  auto odd = simulation_of(askew.text(1));
+  for (int k = 0; k < 3; ++k) odd->step(do_nothing);
+  const Real impulse = (odd->clock().t - 0.5 * odd->clock().dt_old) * 100 * 0.05;
+  EXPECT_NEAR(std::abs(momentum_of(odd->world())[2]), impulse, 2e-3 * impulse);
   // a pressure that slows its block down does negative work
   auto s = simulation_of(
       cube("*LOAD_SEGMENT\n1,1000.0,0.0,1,2,4,3\n*INITIAL_VELOCITY\n1\n0.0,0.0,1.0\n" + constant).text(1));
@@ -284,6 +297,36 @@ TEST(LoadTerms, ObliqueSupportsLeaveOneDirection) {
   const Vec v = s->world().nodes.v.vec(0);
   EXPECT_GT(v.norm(), 1e-3);
   EXPECT_NEAR((v - v.dot(free) * free).norm(), 0, 1e-9);
+}
+
+// Two systems whose x axes are 60 degrees apart: what is held by both leaves the direction across both.
+TEST(LoadTerms, ObliqueSupportsOfTwoSystems) {
+  const Vec a = Vec(1, 2, 2) / 3, b = (0.5 * a + std::sqrt(0.75) * Vec(2, 1, -2) / 3).normalized();
+  const Vec free = a.cross(b).normalized();
+  const auto system = [&](int id, const Vec& x) {
+    const Vec y = free.cross(x);
+    return fmt::format("*DEFINE_COORDINATE_VECTOR\n{},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f}\n", id, x[0],
+                       x[1], x[2], y[0], y[1], y[2]);
+  };
+  auto s = simulation_of(cube(system(7, a) + system(8, b) +
+                              "*BOUNDARY_SPC_SET\n1,7,1,0,0\n1,8,1,0,0\n*LOAD_BODY_Z\n1,9.81\n" + constant)
+                             .text(1));
+  for (int k = 0; k < 5; ++k) s->step(do_nothing);
+  const Vec v = s->world().nodes.v.vec(0);
+  EXPECT_GT(v.norm(), 1e-4);
+  EXPECT_NEAR((v - v.dot(free) * free).norm(), 0, 1e-9);
+}
+
+// Each node of a set must be one on which forces act, not its first one alone.
+TEST(LoadTerms, AllNodesOfALoadAreLookedUp) {
+  SolidDeck deck = cube("*LOAD_NODE_SET\n5,1,1,1.0\n" + constant + "*SET_NODE_LIST\n5\n1,2,9\n");
+  deck.nodes.push_back(Vec(9, 9, 9));
+  Diagnostics diagnostics;
+  ReadOptions options;
+  const std::string text = deck.text(1);
+  options.open = [text](const std::string&) { return text; };
+  EXPECT_EQ(Simulation::build("test.k", options, diagnostics), nullptr);
+  EXPECT_NE(diagnostics.text().find("node 9 is neither a particle"), std::string::npos) << diagnostics.text();
 }
 
 // Nodes of a set share the acceleration of their sum, up to TF.

@@ -353,4 +353,46 @@ TEST(BodyTerms, TheLedgerOfAHalfStepIsThatOfItsForces) {
   });
 }
 
+// D of the axes on the centre, of the scales for rotations on the turning: v+ = ((1 - D dt/2) v- + F dt/m)/(1
+// + D dt/2), and all that is missing of the energy is heat.
+TEST(BodyTerms, DampingTakesWhatItBooks) {
+  JointDeck deck;
+  deck.body({.m = 2, .J = Vec(0.1, 0.2, 0.25).asDiagonal(), .v = {1, 2, 3}, .omega = {3, 0, 0}});
+  deck.more =
+      "*DAMPING_GLOBAL\n0,20.0,1.0,0.5,2.0,0.25,1.0,1.0\n*CONTROL_TIMESTEP\n0.0,0.9,0,0.0,0.0,4\n"
+      "*DEFINE_CURVE\n4\n0.0,0.01\n9.0,0.01\n";
+  auto s = simulation_of(deck.text(1));
+  for (int k = 0; k < 5; ++k) s->step(do_nothing);
+  s->step(do_nothing);
+  const RigidBody& b = s->bodies()->bodies()[0];
+  const Real dissipated = s->world().energy.dissipated;
+  const Vec v = b.v, omega = b.omega;
+  const Real energy = b.kinetic_energy();
+  s->step(do_nothing);
+  const Real dt = s->clock().dt_old;
+  const auto left = [dt](Real D) { return (1 - 0.5 * dt * D) / (1 + 0.5 * dt * D); };
+  EXPECT_NEAR((b.v - Vec(left(20) * v[0], left(10) * v[1], left(40) * v[2])).norm(), 0, 1e-12);
+  EXPECT_NEAR((b.omega - left(5) * omega).norm(), 0, 1e-12);
+  EXPECT_NEAR(s->world().energy.dissipated - dissipated, energy - b.kinetic_energy(), 1e-12);
+}
+
+// Both axes of the cross stay at right angles, while the body turns about them.
+TEST(BodyTerms, UniversalJointsHoldTheCrossAtRightAngles) {
+  JointDeck deck;
+  const int ground = deck.ground(), a = deck.body({.omega = {0.3, 0.2, 0.1}});
+  deck.joint("UNIVERSAL", ground, a, {Vec(0, 0, 0), Vec(0, 1, 0), Vec(0, 0, 1)});
+  auto s = simulation_of(deck.text(1));
+  const Joint& joint = test::joints_of(*s).all().front();
+  const auto cross = [&] {
+    const auto& bodies = s->bodies()->bodies();
+    const Vec first = bodies[joint.a].q * Vec(joint.axes_a.col(2)),
+              second = bodies[joint.b].q * Vec(joint.axes_b.col(2));
+    return first.dot(second);
+  };
+  EXPECT_NEAR(cross(), 0, 1e-12);
+  for (int k = 0; k < 50; ++k) s->step(do_nothing);
+  EXPECT_NEAR(cross(), 0, 1e-9);
+  EXPECT_GT(s->bodies()->bodies()[joint.b].omega.norm(), 0.05);
+}
+
 }  // namespace body_terms_test
