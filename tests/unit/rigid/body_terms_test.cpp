@@ -395,4 +395,18 @@ TEST(BodyTerms, UniversalJointsHoldTheCrossAtRightAngles) {
   EXPECT_GT(s->bodies()->bodies()[joint.b].omega.norm(), 0.05);
 }
 
+// Along x and z of the card's axes, A = y and V = -x: y' = -x, z' = z.
+TEST(BodyTerms, LocalDrivesGoAlongTheAxesOfTheCard) {
+  JointDeck deck;
+  deck.body({});
+  deck.parts += "0.0,1.0,0.0,-1.0,0.0,0.0\n";
+  deck.more =
+      "*BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL\n1,1,0,8\n*BOUNDARY_PRESCRIBED_MOTION_RIGID_LOCAL\n1,2,0,9\n"
+      "*DEFINE_CURVE\n8\n0.0,2.0\n9.0,2.0\n*DEFINE_CURVE\n9\n0.0,3.0\n9.0,3.0\n"
+      "*CONTROL_TIMESTEP\n0.0,0.9,0,0.0,0.0,4\n*DEFINE_CURVE\n4\n0.0,0.01\n9.0,0.01\n";
+  auto s = simulation_of(deck.text(1));
+  s->step(do_nothing);
+  EXPECT_NEAR((s->bodies()->bodies()[0].v - Vec(-3, 2, 0)).norm(), 0, 1e-12);
+}
+
 }  // namespace body_terms_test
