@@ -17,7 +17,7 @@ cd "$project" || stop "the folder $project cannot be entered."
 
 install_packages "${build_packages[@]}" "${picture_packages[@]}"
 options=()
-[ -f "$build/CMakeCache.txt" ] || options=(-DCOURANT_TESTS=OFF)
+[ -f "$build/CMakeCache.txt" ] || options=(-DCOURANT_TESTS=OFF "-DCOURANT_LEAVE_OUT=$(other_instruction_sets)")
 configure "${options[@]}"
 build_targets courant
 

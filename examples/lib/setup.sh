@@ -103,6 +103,16 @@ parallel_jobs() {  # one per core, but each compiler needs about 900 MB
   printf '%s' $((cores < memory ? cores : memory))
 }
 
+other_instruction_sets() {  # those whose loops a program for this machine alone does without
+  if grep -qw avx512vl /proc/cpuinfo && grep -qw avx512dq /proc/cpuinfo; then
+    printf 'baseline;avx2'
+  elif grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; then
+    printf 'baseline;avx512'
+  else
+    printf 'avx2;avx512'
+  fi
+}
+
 configure() {  # cmake options
   command -v cmake >/dev/null || stop "CMake is not there." "apt-get install cmake"
   command -v ninja >/dev/null || stop "Ninja is not there." "apt-get install ninja-build"

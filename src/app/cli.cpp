@@ -36,7 +36,7 @@ struct Call {
   std::vector<Id> only_cases;
   std::optional<LoadCase> one_case;  ///< of the deck, that this call is for
   std::string deck, dir = ".", keyword, restart;
-  std::vector<std::string> params, loads;
+  std::vector<std::string> params, loads, texts;
   int threads = 0;
   Real until = 0;
   bool d3plot = false;
@@ -46,9 +46,10 @@ struct Call {
 
 /// Words of calls that the Python package answers, which are looked at here alone for mistakes.
 struct PythonCall {
-  std::string input, dir, compare, page;
+  std::string input, dir, compare, page, field;
   std::vector<std::string> only, loads, params;
-  int jobs = 0;
+  int jobs = 0, state = -1;
+  Real at = 0;
   bool fresh = false;
 };
 
@@ -57,11 +58,12 @@ void print_error(const std::string& text) {
 }
 
 /// Splits NAME=VALUE; a wrong one is an input error.
-bool parse_params(const std::vector<std::string>& words, std::map<std::string, std::string>& out) {
+bool parse_pairs(const char* option, const char* form, const std::vector<std::string>& words,
+                 std::map<std::string, std::string>& out) {
   for (const std::string& word : words) {
     const auto at = word.find('=');
     if (at == std::string::npos || at == 0) {
-      print_error(fmt::format("error: --param expects NAME=VALUE, got '{}'\n", word));
+      print_error(fmt::format("error: {} expects {}, got '{}'\n", option, form, word));
       return false;
     }
     out[word.substr(0, at)] = word.substr(at + 1);
@@ -69,10 +71,30 @@ bool parse_params(const std::vector<std::string>& words, std::map<std::string, s
   return true;
 }
 
+std::filesystem::path whole_path(const std::string& file) {
+  std::error_code unreadable;
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(file, unreadable), unreadable);
+}
+
+/// Files that are read instead of others: FILE=TEXT.
+bool add_texts(const std::vector<std::string>& words, ReadOptions& out) {
+  std::map<std::string, std::string> texts;
+  if (!words.empty() && !parse_pairs("--text", "FILE=TEXT", words, texts)) return false;
+  if (texts.empty()) return true;
+  std::map<std::filesystem::path, std::string> instead;
+  for (const auto& [file, text] : texts) instead[whole_path(file)] = text;
+  out.open = [instead](const std::string& path) {
+    const auto found = instead.find(whole_path(path));
+    return text_of_file(found == instead.end() ? path : found->second);
+  };
+  return true;
+}
+
 /// How the deck of a call is read; false where its words are wrong.
 bool read_options(const Call& call, ReadOptions& out) {
-  if (!parse_params(call.params, out.parameters)) return false;
+  if (!parse_pairs("--param", "NAME=VALUE", call.params, out.parameters)) return false;
   if (call.d3plot) out.more = "*COURANT_D3PLOT\n1\n";
+  if (!add_texts(call.texts, out)) return false;
   if (call.one_case)
     out.open = [subcases = call.one_case->subcases](const std::string& path) -> std::optional<std::string> {
       const auto text = text_of_file(path);
@@ -176,6 +198,10 @@ int for_cases(Call call, bool alone, const std::function<int(const Call&)>& of) 
 }
 
 int call_keywords(const Call& call) {
+  if (call.json) {
+    print_text(keyword_json());
+    return exit_ok;
+  }
   if (call.markdown) {
     fmt::print("{}", keyword_markdown());
     return exit_ok;
@@ -280,15 +306,19 @@ int command_line(int argc, char** argv) {
   add_case(check);
   add_load(check);
   check->add_flag("--strict", call.strict, "warnings, and ids that nothing refers to, are errors");
+  check
+      ->add_option("--text", call.texts, "FILE=TEXT: reads the file TEXT instead of FILE, as editors need it")
+      ->allow_extra_args(false);
   check->add_flag("--json", call.json, "the report and its messages for programs, on standard output");
 
   auto* keywords = app.add_subcommand("keywords", "list the supported keywords, or show the cards of one");
   keywords->add_option("NAME", call.keyword, "keyword, with or without '*'");
   add_load(keywords);
   keywords->add_flag("--markdown", call.markdown, "all cards as docs/keywords.md");
+  keywords->add_flag("--json", call.json, "all cards for programs");
   keywords->add_flag("--cannot-do", call.cannot_do, "all that is refused, as docs/cannot_do.md");
 
-  PythonCall python;  // what these three do, the package in src/python does
+  PythonCall python;  // what these do, the package in src/python does
   auto* generate = app.add_subcommand("generate", "write a keyword deck from a YAML scene");
   generate->add_option("SCENE", python.input, "scene.yaml")->required();
   generate->add_option("-o,--output", python.page, "deck to write")->required();
@@ -301,7 +331,7 @@ int command_line(int argc, char** argv) {
   auto* post = app.add_subcommand("post", "tables, CSV and pictures from the results of a run");
   std::vector<std::string> places;
   post->add_option("RECIPE", places,
-                   "recipe.yaml, and the folder of the run; with --view the folder alone will do")
+                   "recipe.yaml, and the folder of the run; the folder alone: a report, or the view")
       ->type_name("DIR")
       ->expected(1, 2)
       ->required();
@@ -313,6 +343,14 @@ int command_line(int argc, char** argv) {
   auto* report = app.add_subcommand("report", "one HTML page on a run, or on two side by side");
   report->add_option("DIR", places, "folder of the run, or of two")->expected(1, 2)->required();
   report->add_option("-o,--output", python.dir, "FILE: the page; DIR/report.html if not given");
+
+  auto* view =
+      app.add_subcommand("view", "a state of a run, or the first of a deck, in a window or a picture");
+  view->add_option("DIR", python.input, "folder of the run, keyword deck, or scene.yaml")->required();
+  view->add_option("-o,--output", python.dir, "FILE: a picture instead of a window: PNG, PDF, SVG");
+  view->add_option("--state", python.state, "number of the state, from 0; -1, the last, if not given");
+  view->add_option("--at", python.at, "the state nearest to this time");
+  view->add_option("--field", python.field, "what colours it; speed if not given");
 
   auto* verify = app.add_subcommand("verify", "run a suite of cases: errors against run time, and stability");
   verify->add_option("SUITE", python.input, "suite.yaml")->required();
@@ -327,9 +365,16 @@ int command_line(int argc, char** argv) {
   verify->add_flag("--fresh", python.fresh, "take over no runs of an earlier call");
   add_python_load(verify);
 
+  auto* schema = app.add_subcommand("schema", "JSON schema of scenes, recipes or suites, for editors");
+  schema->add_option("KIND", python.input, "scene, recipe or suite")->required();
+  schema->add_option("-o,--output", python.page, "FILE: the schema; on standard output if not given");
+
+  auto* lsp = app.add_subcommand("lsp", "language server for keyword decks, on standard input and output");
+  lsp->add_flag("--stdio", python.fresh, "the default; editors add it");
+
   auto* help = app.add_subcommand("help", "show help for a call");
   std::string topic;
-  help->add_option("CALL", topic, "run, check, keywords, generate, post, report or verify");
+  help->add_option("CALL", topic, "run, check, keywords, generate, post, report, verify, schema or lsp");
 
   auto* manual = app.add_subcommand("manual", "write pages of the manual, and completion for bash");
   manual->group("")->add_option("DIR", call.dir, "folder for them")->required();  // called by the build
@@ -367,7 +412,7 @@ int command_line(int argc, char** argv) {
       return exit_input;
     }
   const bool of_scene = (*run_ || *check) && is_scene(call.deck);
-  if (*generate || *post || *report || *verify || of_scene) {
+  if (*generate || *post || *report || *verify || *view || *schema || *lsp || of_scene) {
     print_error(fmt::format("error: {}\n", become_python_program(words)));
     return exit_other;
   }

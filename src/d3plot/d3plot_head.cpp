@@ -59,7 +59,7 @@ Words control_words(const D3plotMesh& mesh, const D3plotExtent& x, std::size_t g
   c.set(31, static_cast<std::int64_t>(mesh.shells.size()));
   c.set(32, parts_of(mesh, ElementKind::shell));
   c.set(33, x.words_of_shell());
-  c.set(34, x.history_of_solids);
+  c.set(34, x.numbers_of_solids());
   c.set(35, x.history_of_shells);
   c.set(36, deletion ? -(10000 + x.points_of_shells) : x.points_of_shells);
   const auto of_sph =

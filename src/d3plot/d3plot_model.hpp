@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "d3plot/words.hpp"
+#include "elements/discrete/discrete.hpp"
 #include "elements/element_report.hpp"
 #include "state/pass.hpp"
 #include "state/world.hpp"
@@ -17,15 +18,20 @@ namespace courant {
 struct D3plotExtent {
   int bits = 32;                         ///< of a word
   int history_of_solids = 0;             ///< NEIPH
+  int points_of_solids = 1;              ///< NINTSLD: 1 or 8
   int history_of_shells = 0;             ///< NEIPS
   int points_of_shells = 3;              ///< MAXINT; 3: middle, lower, upper
   int points_of_beams = 0;               ///< BEAMIP
   bool stress = true, plastic = true;    ///< SIGFLG, EPSFLG, of shells
   bool resultants = true, extra = true;  ///< RLTFLG, ENGFLG, of shells
-  int words_of_solid() const { return 7 + history_of_solids; }
+  bool strains = false;                  ///< STRFLG: of a point of solids, of the outer points of shells
+  /// Strains of solids count as the last numbers of their law.
+  int numbers_of_solids() const { return history_of_solids + 6 * strains; }
+  int words_of_solid() const { return points_of_solids * (7 + numbers_of_solids()); }
   int words_of_beam() const { return 6 + 5 * points_of_beams; }
   int words_of_shell() const {
-    return points_of_shells * (6 * stress + plastic + history_of_shells) + 8 * resultants + 4 * extra;
+    return points_of_shells * (6 * stress + plastic + history_of_shells) + 8 * resultants + 4 * extra +
+           12 * strains;
   }
 };
 
@@ -34,6 +40,7 @@ struct D3plotElement {
   Id id = 0;
   Index part = 0;
   std::array<Index, 8> node{};
+  bool spring = false;  ///< a spring or damper, which is a beam here
 };
 
 struct D3plotPart {
@@ -78,9 +85,11 @@ class D3plotModel : public Pass {
   struct Source {  ///< where the world keeps an element
     const ElementReporter* reporter = nullptr;
     Index e = 0;
+    const SpringReporter* spring = nullptr;
     std::optional<Index> segment{};  ///< of a face without a group
   };
   void find_sources(const World& world);
+  void find_springs(const World& world);
   /// Where the particles of the mesh are in the world, which sorts them anew now and then; -1 none.
   std::vector<Index> find_particles(const World& world) const;
   std::size_t global_words(const World& world) const;

@@ -50,13 +50,14 @@ void D3plotModel::find_sources(const World& world) {
   const auto find = [&](ElementKind kind, std::vector<Source>& to) {
     const std::vector<D3plotElement>& elements = mesh_.of(kind);
     std::unordered_map<Id, std::size_t> place;
-    for (std::size_t k = 0; k < elements.size(); ++k) place.emplace(elements[k].id, k);
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      if (!elements[k].spring) place.emplace(elements[k].id, k);
     to.assign(elements.size(), {});
     for (const auto* reporter : world.passes.all<const ElementReporter>()) {
       if (reporter->kind() != kind) continue;
       const ElementGroup& group = reporter->reported();
       for (Index e = 0; e < group.size(); ++e)
-        if (const auto at = place.find(group.id[e]); at != place.end()) to[at->second] = {reporter, e, {}};
+        if (const auto at = place.find(group.id[e]); at != place.end()) to[at->second] = {reporter, e};
     }
     if (kind != ElementKind::shell) return;
     for (Index s = 0; s < world.segments.size(); ++s)
@@ -66,6 +67,7 @@ void D3plotModel::find_sources(const World& world) {
   };
   find(ElementKind::solid, solids_);
   find(ElementKind::beam, beams_);
+  find_springs(world);
   find(ElementKind::shell, shells_);
   std::unordered_map<Id, Index> node;
   for (Index n = 0; n < world.nodes.size(); ++n) node.emplace(world.nodes.id[n], n);
@@ -73,6 +75,18 @@ void D3plotModel::find_sources(const World& world) {
   for (const Id id : mesh_.node_ids) {
     const auto at = node.find(id);
     node_of_.push_back(at == node.end() ? -1 : at->second);
+  }
+}
+
+void D3plotModel::find_springs(const World& world) {
+  std::unordered_map<Id, std::size_t> row_of;
+  for (std::size_t k = 0; k < mesh_.beams.size(); ++k)
+    if (mesh_.beams[k].spring) row_of.emplace(mesh_.beams[k].id, k);
+  for (const auto* reporter : world.passes.all<const SpringReporter>()) {
+    const ElementGroup& group = reporter->spring_group();
+    for (Index e = 0; e < group.size(); ++e)
+      if (const auto at = row_of.find(group.id[e]); at != row_of.end())
+        beams_[at->second] = {nullptr, e, reporter};
   }
 }
 
@@ -183,16 +197,28 @@ void D3plotModel::put_nodes(const World& world, const Clock& clock, const std::v
        [&](Index i) { return i < p.active ? Vec(p.f.vec(i) / p.m[i]) : Vec(Vec::Zero()); }, none);
 }
 
+// Of eight points that are asked for, elements with fewer repeat their last one.
 void D3plotModel::put_solid(const World& world, const Source& source, Words& out) const {
   if (!source.reporter) return out.zeros(static_cast<std::size_t>(extent_.words_of_solid()));
-  const ElementReport report = source.reporter->report_element(world, source.e, {});
-  const PointReport& point = report.points.front();
-  for (const Real s : point.stress) out.real(s);
-  out.real(point.plastic);
-  put_history(point, extent_.history_of_solids, out);
+  const auto count = static_cast<std::size_t>(extent_.points_of_solids);
+  const ElementReport report = source.reporter->report_element(world, source.e, {.all_points = count > 1});
+  for (std::size_t p = 0; p < count; ++p) {
+    const PointReport& point = report.points[std::min(p, report.points.size() - 1)];
+    for (const Real s : point.stress) out.real(s);
+    out.real(point.plastic);
+    put_history(point, extent_.history_of_solids, out);
+    for (std::size_t k = 0; extent_.strains && k < 6; ++k) out.real(point.strain[k]);
+  }
 }
 
 void D3plotModel::put_beam(const World& world, const Source& source, Words& out) const {
+  if (source.spring) {
+    const SpringForce spring = source.spring->spring(source.e);
+    out.real(spring.turns ? 0 : spring.resultant);
+    out.zeros(4);
+    out.real(spring.turns ? spring.resultant : 0);
+    return out.zeros(static_cast<std::size_t>(extent_.words_of_beam()) - 6);
+  }
   if (!source.reporter) return out.zeros(static_cast<std::size_t>(extent_.words_of_beam()));
   const ElementReport report = source.reporter->report_element(world, source.e, {});
   for (const Real r : report.resultants) out.real(r);
@@ -207,8 +233,12 @@ void D3plotModel::put_beam(const World& world, const Source& source, Words& out)
 void D3plotModel::put_shell(const World& world, const Source& source, Words& out) const {
   const D3plotExtent& x = extent_;
   std::vector<PointReport> points(static_cast<std::size_t>(x.points_of_shells));
-  if (source.reporter)
-    points = shown_points(source.reporter->report_element(world, source.e, {}).points, x.points_of_shells);
+  std::array<std::array<Real, 6>, 2> strain{};
+  if (source.reporter) {
+    const std::vector<PointReport> all = source.reporter->report_element(world, source.e, {}).points;
+    points = shown_points(all, x.points_of_shells);
+    strain = {all.front().strain, all.back().strain};
+  }
   for (const PointReport& point : points) {
     for (std::size_t k = 0; x.stress && k < 6; ++k) out.real(point.stress[k]);
     if (x.plastic) out.real(point.plastic);
@@ -224,10 +254,15 @@ void D3plotModel::put_shell(const World& world, const Source& source, Words& out
     out.zeros(2);  // shear forces are not kept
     three(membrane_force);
   }
-  if (!x.extra) return;
+  const auto put_strain = [&] {
+    for (const auto& tensor : strain)
+      for (std::size_t k = 0; x.strains && k < 6; ++k) out.real(tensor[k]);
+  };
+  if (!x.extra) return put_strain();
   const Real rigid = source.segment ? world.segments.thickness[*source.segment] : 0;
   out.real(group ? source.reporter->cut_measure(source.e) : rigid);
   out.zeros(2);
+  put_strain();
   const Field<Real>* energy = group ? internal_energy.find(group->fields) : nullptr;
   out.real(energy && group->V0[source.e] > 0 ? (*energy)[source.e] / group->V0[source.e] : 0);
 }

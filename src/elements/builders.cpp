@@ -28,6 +28,7 @@
 #include "loads/non_reflecting.hpp"
 #include "loads/point_motion.hpp"
 #include "model/mesh/plane_strain.hpp"
+#include "model/requests/output_cards.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {
@@ -122,6 +123,8 @@ void build_elements(const Deck& deck, const Model& model, World& world, Diagnost
   ElementOptions options{mass_scaling_of(deck), failure_rules(deck, model, that_deform, diagnostics),
                          stiffness_damping(deck, model, that_deform, by_pressure, diagnostics),
                          has_cross_sections(deck)};
+  const auto* extent = deck.last<DatabaseExtentBinary>();
+  options.strains = extent && extent->strflg != 0;
   add_solid_passes(model, solids, node_of, options, world);
   add_shell_passes(model, shells, node_of, options, world);
   build_beams(model, beams, node_of, world, diagnostics);

@@ -15,6 +15,7 @@ enum class ElementKind { solid, beam, shell };  ///< in the order of elout
 struct PointReport {
   std::array<Real, 6> stress{};  ///< Cauchy, xx yy zz xy yz zx; of beams along r, s, t: rr, rs, tr [M/LT2]
   Real plastic = 0;              ///< plastic strain, 0 where the law has none [-]
+  std::array<Real, 6> strain{};  ///< as the stress, of the tensor; 0 unless STRFLG requests it [-]
   std::vector<Real> history{};   ///< what the law keeps, component by component, in its order
 };
 

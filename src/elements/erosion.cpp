@@ -88,7 +88,8 @@ Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int point
       eroded_(shared_fields::eroded.add(group.fields)),
       failed_(group.fields.add<Index>({.name = "failed_points", .dimension = "-", .components = points})) {
   if (rules.measures_strain())
-    strain_ = &group.fields.add<Real>({.name = "strain", .dimension = "-", .components = 6 * points});
+    strain_ =
+        &group.fields.add<Real>({.name = "strain_of_points", .dimension = "-", .components = 6 * points});
   if (rules.impulse < infinite)
     impulse_ = &group.fields.add<Real>({.name = "impulse", .dimension = "M2/L2T3", .components = points});
   if (rules.least_step.ratio > 0)

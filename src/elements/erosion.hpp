@@ -175,7 +175,8 @@ struct ElementOptions {
   MassScaling scaling;
   std::vector<FailureRules> failure;                ///< by part of the model
   std::vector<Real> stiffness_damping;              ///< COEF by part of the model, 0: none
-  bool sections = false;                            ///< somebody asks for forces on corners
+  bool sections = false;                            ///< cross sections read forces on corners
+  bool strains = false;                             ///< STRFLG: strains at points are kept
   std::vector<std::shared_ptr<Erosion>> eroding{};  ///< out: of groups that may fail
 };
 

@@ -60,7 +60,10 @@ class AddedMassLimit : public EnergyTerm {
       throw RunError(fmt::format("mass scaling has added {:.4g} % of the mass of elements, more than ENDMAS "
                                  "= {:.4g} %, by time {:.6g}, cycle {}",
                                  percent, endmas_, clock.t, clock.cycle),
-                     StopCause::added_mass);
+                     "elements that are pressed or distorted ask for shorter and shorter steps: lower "
+                     "|DT2MS| of *CONTROL_TIMESTEP, let elements that collapse be deleted (ERODE, "
+                     "*MAT_ADD_EROSION), or raise ENDMAS of *CONTROL_TERMINATION if that much mass does not "
+                     "matter");
   }
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 

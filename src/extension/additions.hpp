@@ -10,6 +10,7 @@
 #include "extension/builders.hpp"
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
+#include "state/history_numbers.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -29,7 +30,7 @@ struct RegisterAddition {
   RegisterAddition(std::string name, Build build, FindNodes nodes = {});
 };
 
-/// An ASCII history that a file adds.
+/// A history that a file adds: as text, in binout and in history.h5.
 struct AsciiHistory {
   std::string name;  ///< of the file in the run's folder
   /// Interval that a deck asks for; 0: not asked for [T]
@@ -40,6 +41,10 @@ struct AsciiHistory {
   std::function<std::vector<std::pair<Id, std::string>>(const World&)> legend{};
   /// Lines behind the legend, once.
   std::string columns{};
+  /// The same numbers for binout and history.h5; none: they have none of it.
+  std::function<void(const World&, const Clock&, HistoryNumbers&)> numbers{};
+  /// BINARY of its card: 2 binout, 3 binout and text, else text; none: text.
+  std::function<int(const Deck&)> binary{};
 };
 
 std::vector<AsciiHistory>& ascii_histories();

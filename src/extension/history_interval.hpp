@@ -21,7 +21,11 @@ KeywordOf<Card> history_interval(std::string name, std::string purpose) {
           .once = true,
           .many = false,
           .cards = {{.fields = {{"DT", &Card::dt, "T", "interval, 0 none", {.check = Check::not_negative}},
-                                {"BINARY", &Card::binary, "-", "text is written", no_effect},
+                                {"BINARY",
+                                 &Card::binary,
+                                 "-",
+                                 "0 and 1 text, 2 binout, 3 both; history.h5 in any case",
+                                 {.allowed = {0, 1, 2, 3}}},
                                 {"LCUR",
                                  &Card::lcur,
                                  "-",
@@ -35,6 +39,13 @@ template <class Card>
 Real interval_in(const Deck& deck) {
   const auto* card = deck.last<Card>();
   return card ? card->dt : 0;
+}
+
+/// BINARY of the card.
+template <class Card>
+int binary_in(const Deck& deck) {
+  const auto* card = deck.last<Card>();
+  return card ? card->binary : 1;
 }
 
 }  // namespace courant

@@ -34,25 +34,47 @@ class Tracers : public Pass {
   explicit Tracers(std::vector<Tracer> all) : all_(std::move(all)) {}
   std::string name() const override { return "tracers"; }
   std::string text(const World& world, const Clock& clock) const {
-    std::unordered_map<Id, Index> particle, node;
-    for (const Tracer& one : all_) particle[one.id] = node[one.id] = -1;
-    find(world.particles.id, world.particles.size(), particle);
-    find(world.nodes.id, world.nodes.size(), node);
     std::string out = fmt::sprintf("%13.5E\n", clock.t);
-    for (const Tracer& one : all_) {
-      Row row = particle.at(one.id) >= 0 ? of_particle(world, clock, particle.at(one.id))
-                                         : of_node(world, node.at(one.id));
-      if (clock.t < one.from) row[15] = 0;
+    for (const auto& [id, row] : rows(world, clock))
       for (std::size_t k = 0; k < row.size(); ++k)
         out += fmt::sprintf("%13.5E%s", row[k], k % 4 == 3 ? "\n" : "");
-    }
     return out;
+  }
+  void add_numbers(const World& world, const Clock& clock, HistoryNumbers& to) const {
+    using R = std::pair<Id, Row>;
+    const std::vector<R> all = rows(world, clock);
+    HistoryRows arrays(to, "", all, &R::first, "tracers");
+    constexpr const char* names[] = {"x",  "y",   "z",   "vx",  "vy",  "vz",  "sx",   "sy",
+                                     "sz", "sxy", "syz", "szx", "efp", "rho", "rvol", "active"};
+    for (std::size_t k = 0; k < 16; ++k) arrays.real(names[k], [k](const R& r) { return r.second[k]; });
+    std::size_t at = 0;
+    for (const auto& [id, row] : all) {
+      arrays.value(at, "x", "L", {row.begin(), row.begin() + 3});
+      arrays.value(at, "v", "L/T", {row.begin() + 3, row.begin() + 6});
+      arrays.value(at, "stress", "M/LT2", {row.begin() + 6, row.begin() + 12});
+      arrays.value(at, "rho", "M/L3", {row[13]});
+      arrays.value(at++, "active", "-", {row[15]});
+    }
   }
   std::size_t size() const { return all_.size(); }
 
  private:
   /// x y z vx vy vz sx sy sz sxy syz szx efp rho rvol active
   using Row = std::array<Real, 16>;
+  std::vector<std::pair<Id, Row>> rows(const World& world, const Clock& clock) const {
+    std::unordered_map<Id, Index> particle, node;
+    for (const Tracer& one : all_) particle[one.id] = node[one.id] = -1;
+    find(world.particles.id, world.particles.size(), particle);
+    find(world.nodes.id, world.nodes.size(), node);
+    std::vector<std::pair<Id, Row>> out;
+    for (const Tracer& one : all_) {
+      Row row = particle.at(one.id) >= 0 ? of_particle(world, clock, particle.at(one.id))
+                                         : of_node(world, node.at(one.id));
+      if (clock.t < one.from) row[15] = 0;
+      out.emplace_back(one.id, row);
+    }
+    return out;
+  }
   static void find(const Field<Id>& id, Index n, std::unordered_map<Id, Index>& to) {
     for (Index i = 0; i < n; ++i)
       if (const auto at = to.find(id[i]); at != to.end()) at->second = i;
@@ -139,7 +161,13 @@ const RegisterAsciiHistory trhist{
            for (const auto* tracers : world.passes.all<const Tracers>()) out += tracers->text(world, clock);
            return out;
          },
-     .columns = "  x  y  z  vx\n  vy  vz  sx  sy\n  sz  sxy  syz  szx\n  efp  rho  rvol  active\n"}};
+     .columns = "  x  y  z  vx\n  vy  vz  sx  sy\n  sz  sxy  syz  szx\n  efp  rho  rvol  active\n",
+     .numbers =
+         [](const World& world, const Clock& clock, HistoryNumbers& to) {
+           for (const auto* tracers : world.passes.all<const Tracers>())
+             tracers->add_numbers(world, clock, to);
+         },
+     .binary = binary_in<TrhistCard>}};
 
 }  // namespace
 

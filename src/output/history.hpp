@@ -23,7 +23,12 @@ namespace courant {
 ///   /rigid_bodies/<part id>/{x v omega force moment kinetic displacement rotation a angular_a}
 ///   /particles/<id>/{x v p rho E h tau neighbours active}
 ///   /nodes/<id>/{displacement x v a}, of those that turn also {rotation omega angular_a}
-///   /driven_particles/<id>/{force work}, /driven_bodies/<part id>/{force moment work},
+///   of histories that files add, as elout, secforc, deforc, jntforc, swforc and trhist do:
+///   /solids/<id>/{stress plastic_strain deleted}, of several points stress_of_point_1, ...; /shells the
+///   same; /beams/<id>/{axial shear_s shear_t moment_s moment_t torsion deleted}, /sections/<id>/{force
+///   moment centroid area}, /springs/<id>/{force resultant change_in_length}, /joints/<id>/{force moment},
+///   /welds/<id>/{axial shear resultant_moment torsion length failure_time}, /tracers/<id>/{x v stress rho
+///   active} /driven_particles/<id>/{force work}, /driven_bodies/<part id>/{force moment work},
 ///   /held_particles/<id>/force, /driven_rotations/<id>/{moment work}, /held_rotations/<id>/moment
 ///   /gauges/<name>/{time ...}: rows of their own, at the times of that gauge
 /// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it
@@ -61,7 +66,8 @@ class History {
   void put(const std::string& path, const char* dimension, double value);
   void put(const std::string& path, const char* dimension, const Vec& value);
   void put(const std::string& path, const char* dimension, const std::array<Real, 6>& value);
-  Column& column(const std::string& path, const char* dimension, int components);
+  void put_added(const Sample& sample);
+  Column& column(const std::string& path, const std::string& dimension, int components);
   void put_global(const Sample& sample);
   void put_entities(const Sample& sample);
   void put_bodies(const Sample& sample);

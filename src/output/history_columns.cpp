@@ -11,7 +11,7 @@ namespace {
 constexpr const char* energy = "ML2/T2";
 }
 
-History::Column& History::column(const std::string& path, const char* dimension, int components) {
+History::Column& History::column(const std::string& path, const std::string& dimension, int components) {
   Column& c = columns_[path];
   c.dimension = dimension;
   c.components = components;
@@ -107,6 +107,17 @@ void History::put_points(const Sample& s) {
   }
 }
 
+void History::put_added(const Sample& s) {
+  for (const AddedSample& added : s.added) {
+    for (const auto& [group, title] : added.numbers.titles)
+      if (!title.empty()) titles_[group] = title;
+    for (const HistoryValue& one : added.numbers.values) {
+      auto& values = column(one.path, one.dimension, static_cast<int>(one.components.size())).values;
+      values.insert(values.end(), one.components.begin(), one.components.end());
+    }
+  }
+}
+
 void History::put_entities(const Sample& s) {
   for (const PartSample& part : s.parts) {
     const std::string group = fmt::format("/parts/{}", part.id);
@@ -136,6 +147,7 @@ void History::put_entities(const Sample& s) {
   }
   put_bodies(s);
   put_points(s);
+  put_added(s);
 }
 
 }  // namespace courant

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "state/history_numbers.hpp"
 #include "state/reports.hpp"
 #include "state/world.hpp"
 
@@ -62,6 +63,12 @@ struct GaugeSample {
   std::vector<Real> values{};
 };
 
+/// A state of a history that a file adds.
+struct AddedSample {
+  std::string text{};
+  HistoryNumbers numbers{};
+};
+
 struct Sample {
   Real t = 0;  ///< [T]
   Real dt = 0;
@@ -80,7 +87,14 @@ struct Sample {
   std::vector<BoundaryForce> boundary_forces;
   std::vector<RigidWallForce> rigid_walls;
   std::vector<GaugeSample> gauges;  ///< those that are due
-  std::vector<std::string> added;   ///< states of histories that files add, in the order of their registry
+  std::vector<AddedSample> added;   ///< in the order of the registry
 };
+
+inline std::vector<BoundaryForce> boundary_forces_of(const Sample& sample, BoundaryForce::Kind kind) {
+  std::vector<BoundaryForce> out;
+  for (const BoundaryForce& one : sample.boundary_forces)
+    if (one.kind == kind) out.push_back(one);
+  return out;
+}
 
 }  // namespace courant

@@ -139,10 +139,11 @@ void GhostParticles::bring_back(World& world, Index n) {
 void GhostParticles::build(World& world, Real support, Real skin) {
   const Real reach = support + skin;
   if (support > narrowest_)
-    throw RunError(fmt::format(
-        "planes with ghost particles are {:.4g} [L] apart, and particles now reach {:.4g}: they would see "
-        "ghost particles twice; make the domain wider, or limit h by HMAX of *SECTION_SPH",
-        narrowest_, support));
+    throw RunError(fmt::format("planes with ghost particles are {:.4g} [L] apart, and particles now reach "
+                               "{:.4g}: they would see "
+                               "ghost particles twice",
+                               narrowest_, support),
+                   "make the domain wider, or limit h by HMAX of *SECTION_SPH");
   Particles& p = world.particles;
   const Index begin = of_ ? of_->first() : 0, end = of_ ? begin + of_->count() : p.moving;
   source_.clear();

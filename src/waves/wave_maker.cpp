@@ -84,10 +84,11 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
     const Real back = s_.drift > 0 ? correction_ / s_.drift : 0;
     next_correction_ = correction_ + clock.dt * (s_.gain * next_filtered_ - back);
     if (std::abs(next_correction_) > s_.most)
-      throw RunError(fmt::format(
-          "the wave maker of part {} is {:.4g} off its curve at time {:.6g}, more than XMAX {:.4g}: check D "
-          "({:.4g}) and LCETA, or let the drift go back by TDRIFT",
-          s_.id, std::abs(next_correction_), clock.t, s_.most, s_.paddle.depth));
+      throw RunError(
+          fmt::format(
+              "the wave maker of part {} is {:.4g} off its curve at time {:.6g}, more than XMAX {:.4g}",
+              s_.id, std::abs(next_correction_), clock.t, s_.most),
+          fmt::format("check D ({:.4g}) and LCETA, or let the drift go back by TDRIFT", s_.paddle.depth));
   }
 
   /// Measured, above the still level. [L]
@@ -101,10 +102,11 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
     gauge->cover(view, boxes[0]);
     const std::vector<Real> level = gauge->measure(view, near_.find(view, std::move(boxes))[0]);
     if (level[0] == 0)
-      throw RunError(fmt::format(
-          "there is no water {:.4g} in front of the wave maker of part {} at time {:.6g}, where it measures "
-          "the level: the paddle has left the water, or DIST is too large",
-          s_.distance, s_.id, clock.t));
+      throw RunError(fmt::format("there is no water {:.4g} in front of the wave maker of part {} at time "
+                                 "{:.6g}, where it measures "
+                                 "the level",
+                                 s_.distance, s_.id, clock.t),
+                     "the paddle has left the water, or DIST is too large");
     return level[1] - s_.paddle.depth;
   }
 

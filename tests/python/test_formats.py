@@ -180,7 +180,7 @@ def test_vtk_and_meshio_read_every_packing(tmp_path: Path, packing: int) -> None
 
 def test_d3plot_holds_what_the_field_files_hold(results: courant.Results, d3plot: D3plotFile) -> None:
     np.testing.assert_allclose(d3plot.times, results.states.times, rtol=1e-7)
-    assert d3plot.parts == {1: "steel block", 2: TITLE, 3: "bars", 4: "rigid brick", 5: "rigid plate", 6: "water"}
+    assert d3plot.parts == {1: "steel block", 2: TITLE, 3: "bars", 4: "rigid brick", 5: "rigid plate", 6: "water", 7: "spring"}
     for k, state in enumerate(results.states):
         nodes = d3plot.state(k).nodes
         place = {id: n for n, id in enumerate(d3plot.nodes.tolist())}
@@ -219,7 +219,11 @@ def test_d3plot_of_elements_is_that_of_the_field_files(results: courant.Results,
                 np.testing.assert_array_equal(shells["bending_moment"][row], moment[id])
         force = cells_by_id(state.solids, "axial_force")
         beams = ours.elements("beams")
-        np.testing.assert_allclose(beams["axial_force"], [force[id] for id in beams["id"].tolist()], rtol=1e-6)
+        spring = beams["id"] == 61
+        np.testing.assert_allclose(beams["axial_force"][~spring], [force[id] for id in beams["id"][~spring].tolist()], rtol=1e-6)
+        row = int(np.argmin(abs(results.ascii["deforc"]["t"] - ours.t)))
+        np.testing.assert_allclose(beams["axial_force"][spring], results.ascii["deforc"]["resultant_force_61"][row], rtol=1e-5, atol=1e-30)
+        assert beams["part"][spring].tolist() == [7] and not beams["torsion"][spring].any()
 
 
 def test_d3plot_knows_which_elements_are_deleted(results: courant.Results, d3plot: D3plotFile) -> None:
@@ -320,6 +324,110 @@ def test_a_killed_run_leaves_a_readable_family(tmp_path: Path) -> None:
     assert np.isfinite(ours.state(len(ours) - 1).nodes["position"]).all()
 
 
+@pytest.fixture(scope="module")
+def strained(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The same run with strains and eight points of solids, of ELFORM 2, and an elastic plate."""
+    at = tmp_path_factory.mktemp("strained")
+    text = DECK.read_text().replace("*DATABASE_EXTENT_BINARY\n0,2,3,0,1,1,1,1\n0,0,2,1,1,1", "*DATABASE_EXTENT_BINARY\n2,2,3,1,1,1,1,1\n0,0,2,1,1,1\n8")
+    text = text.replace("*MAT_PIECEWISE_LINEAR_PLASTICITY\n2,7850.,2.1e11,.3,1e8,1e9,.002", "*MAT_ELASTIC\n2,7850.,2.1e11,.3")
+    text = text.replace("*SECTION_SOLID\n1,1", "*SECTION_SOLID\n1,2").replace("*PART\nrigid brick\n4,1,4", "*PART\nrigid brick\n4,8,4")
+    text = text.replace("0.,0.,.015,0.,0.,.1", "0.,0.,-1.,0.,0.,.1")  # the block falls on the plate, not on the wall
+    (at / "deck.k").write_text(text.replace("*SECTION_BEAM", "*SECTION_SOLID\n8,1\n*SECTION_BEAM"))
+    return run(at / "deck.k", at / "run", "--d3plot")
+
+
+def hooke(strain: np.ndarray, E: float = 2.1e11, nu: float = 0.3) -> np.ndarray:
+    out = E / (1 + nu) * strain
+    out[..., :3] += E * nu / ((1 + nu) * (1 - 2 * nu)) * strain[..., :3].sum(axis=-1, keepdims=True)
+    return out
+
+
+def test_strains_are_those_of_the_stress(strained: Path) -> None:
+    """Stress and strain turn alike, so that Hooke's law ties them at every time however far the body has turned."""
+    ours = courant.open(strained)
+    state = ours.d3plot.state(-1)
+    solids, shells = state.elements("solids"), state.elements("shells")
+    block = solids["part"] == 1
+    stress, strain = solids["stress"][block].astype(float), solids["strain"][block].astype(float)
+    assert stress.shape == strain.shape == (2, 8, 6) and solids["history"].shape[-1] == 2
+    assert abs(stress).max() > 1e7 and not np.allclose(stress[0, 0], stress[0, 7])
+    np.testing.assert_allclose(hooke(strain), stress, rtol=1e-4, atol=1e-5 * abs(stress).max())
+    plate = shells["part"] == 2
+    strain, outer = shells["strain"][plate].astype(float), shells["stress"][plate][:, 1:].astype(float)
+    assert abs(outer).max() > 1e7
+    in_plane = hooke(strain)[..., [0, 1, 3]]
+    np.testing.assert_allclose(in_plane, outer[..., [0, 1, 3]], atol=2e-2 * abs(outer).max())  # the plate has turned a little, and shear is softer by 5/6
+    last, table = ours.states[-1], ours.histories
+    row = last.solids._values("CellData", "id").tolist().index(71)
+    np.testing.assert_allclose(last.solids["strain_tensor"][row], solids["strain"][solids["id"] == 71][0].mean(axis=0), rtol=1e-4, atol=1e-9)
+    assert last.shells["strain_lower"].shape[1] == 6
+    at = int(np.argmin(abs(table.t - state.t)))
+    np.testing.assert_allclose(table["shells/31/strain_upper"][at], shells["strain"][shells["id"] == 31][0, 1], rtol=1e-5, atol=1e-9)
+    text = ours.ascii["elout"]
+    eps = [text[f"eps_{axes}_71_solid_point_3"][at] for axes in ("xx", "yy", "zz", "xy", "yz", "zx")]
+    np.testing.assert_allclose(eps, solids["strain"][solids["id"] == 71][0, 2], rtol=1e-3, atol=1e-7)
+    assert text["eps_xx_31_shell_lower"].shape == text["t"].shape
+
+
+def test_strains_do_not_change_the_run(strained: Path, tmp_path: Path) -> None:
+    text = (strained.parent / "deck.k").read_text().replace("2,2,3,1,1,1,1,1\n0,0,2,1,1,1\n8", "2,2,3,0,1,1,1,1\n0,0,2,1,1,1\n1")
+    (tmp_path / "deck.k").write_text(text)
+    other = run(tmp_path / "deck.k", tmp_path / "run")
+    for name in ("glstat", "nodout", "matsum", "rcforc", "deforc"):
+        of = [(at / name).read_bytes().split(b"\n") for at in (strained, other)]
+        assert [line for line in of[0] if b"nanosec" not in line] == [line for line in of[1] if b"nanosec" not in line], name
+
+
+def test_strains_go_on_after_a_restart(strained: Path, tmp_path: Path) -> None:
+    deck = tmp_path / "deck.k"
+    deck.write_text((strained.parent / "deck.k").read_text().replace("*END", "*DATABASE_BINARY_D3DUMP\n300\n*END"))
+    parts = run(deck, tmp_path / "parts", "--d3plot")
+    run(deck, parts, "--d3plot", "--restart", str(sorted((parts / "restart").glob("d3dump*"))[0]))
+    for file in sorted(strained.glob("d3plot*")):
+        assert file.read_bytes() == (parts / file.name).read_bytes(), file.name
+
+
+def test_lasso_reads_strains_and_points(strained: Path) -> None:
+    lasso = pytest.importorskip("lasso.dyna")
+    theirs, ours = lasso.D3plot(str(strained / "d3plot")).arrays, courant.open(strained).d3plot
+    for k in range(len(ours)):
+        solids, shells = ours.state(k).elements("solids"), ours.state(k).elements("shells")
+        np.testing.assert_array_equal(theirs["element_solid_stress"][k], solids["stress"])
+        np.testing.assert_array_equal(theirs["element_solid_strain"][k], solids["strain"])
+        np.testing.assert_array_equal(theirs["element_shell_strain"][k], shells["strain"])
+        np.testing.assert_array_equal(theirs["element_shell_internal_energy"][k], shells["internal_energy"])
+        np.testing.assert_array_equal(theirs["node_displacement"][k], ours.state(k).nodes["position"])
+
+
+def test_vtk_reads_strains(strained: Path, tmp_path: Path) -> None:
+    """Of one point of solids: VTK 9.1 does not know NINTSLD 8, neither in files of LS-DYNA."""
+    vtk = pytest.importorskip("vtkmodules.vtkIOLSDyna")
+    support = pytest.importorskip("vtkmodules.util.numpy_support")
+    (tmp_path / "deck.k").write_text((strained.parent / "deck.k").read_text().replace("0,0,2,1,1,1\n8", "0,0,2,1,1,1\n1"))
+    of_one = run(tmp_path / "deck.k", tmp_path / "run", "--d3plot")
+    ours = courant.open(of_one).d3plot
+    assert ours.state(4).elements("solids")["strain"].shape == (3, 6)
+    reader = vtk.vtkLSDynaReader()
+    reader.SetFileName(str(of_one / "d3plot"))
+    reader.UpdateInformation()
+    reader.SetRemoveDeletedCells(0)
+    reader.SetTimeStep(4)
+    reader.UpdateTimeStep(float(ours.times[4]))
+    reader.Update()
+    for block, kind in ((0, "solids"), (1, "shells")):
+        grid, table = reader.GetOutput().GetBlock(block), ours.state(4).elements(kind)
+        rows, cells = table["part"] == block + 1, grid.GetCellData()
+        array = {cells.GetArrayName(i): support.vtk_to_numpy(cells.GetArray(i)) for i in range(cells.GetNumberOfArrays())}
+        np.testing.assert_array_equal(array["UserIds"], table["id"][rows])
+        strains = sorted(name for name in array if name.startswith("Strain"))
+        if kind == "shells":
+            assert strains == ["StrainInnerSurf", "StrainOuterSurf"]
+            np.testing.assert_array_equal(array["StrainInnerSurf"], table["strain"][rows, 0])
+            np.testing.assert_array_equal(array["StrainOuterSurf"], table["strain"][rows, 1])
+        else:
+            np.testing.assert_array_equal(array["Strain"], table["strain"][rows])
+
+
 def test_lasso_reads_d3plot(folder: Path, d3plot: D3plotFile) -> None:
     lasso = pytest.importorskip("lasso.dyna")
     theirs = lasso.D3plot(str(folder / "d3plot")).arrays
@@ -374,7 +482,7 @@ def test_vtk_reads_d3plot(folder: Path, d3plot: D3plotFile) -> None:
             array = {}
             for data in (grid.GetCellData(), grid.GetPointData()):
                 array |= {data.GetArrayName(i): support.vtk_to_numpy(data.GetArray(i)) for i in range(data.GetNumberOfArrays())}
-            kind = {1: "solids", 2: "shells", 3: "beams", 4: "solids", 5: "shells"}.get(part)
+            kind = {1: "solids", 2: "shells", 3: "beams", 4: "solids", 5: "shells", 7: "beams"}.get(part)
             # VTK 9.1 reads numbers of nodes in pairs; its points are those of the part in the order of the file
             nodes = d3plot.sph_nodes[:, 0] if kind is None else np.unique(d3plot.corners[kind][ours.elements(kind)["part"] == part])
             np.testing.assert_allclose(support.vtk_to_numpy(grid.GetPoints().GetData()), ours.nodes["position"][nodes], rtol=1e-7)

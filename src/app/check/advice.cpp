@@ -86,19 +86,17 @@ std::string advice_for_flow(const StopFacts& f) {
 }  // namespace
 
 std::string advice(const StopFacts& f) {
-  if (f.cause == StopCause::added_mass)
-    return "elements that are pressed or distorted ask for shorter and shorter steps: lower |DT2MS| of "
-           "*CONTROL_TIMESTEP, let elements that collapse be deleted (ERODE, *MAT_ADD_EROSION), or raise "
-           "ENDMAS of *CONTROL_TERMINATION if that much mass does not matter";
-  if (f.cause == StopCause::direction)
-    return "name two nodes whose line stays along the wall, or give the direction by D1, D2, D3, which stays";
+  if (f.cause == StopCause::other) return f.hint;
   std::string text = advice_for_start(f);
+  if (text.empty()) text = f.hint;
   if (text.empty()) text = advice_for_flow(f);
   if (text.empty())
     text = fmt::format(
-        "lower TSSFAC of *CONTROL_TIMESTEP (now {:.3g}), or raise the artificial viscosity "
-        "(*HOURGLASS Q1, Q2), and see where it begins in the last states",
-        f.tssfac);
+        "lower TSSFAC of *CONTROL_TIMESTEP (now {:.3g}), or {}, and see where it begins in the "
+        "last states",
+        f.tssfac,
+        f.particles ? "raise the artificial viscosity (*HOURGLASS Q1, Q2)"
+                    : "make contact softer (SFSA, SLSFAC)");
   return text;
 }
 
@@ -107,6 +105,7 @@ StopFacts facts_at_start(Simulation& s) {
   World& w = s.world();
   const Particles& p = w.particles;
   f.tssfac = s.model().tssfac;
+  f.particles = p.size() > 0;
   f.spacing = s.sph().spacing;
   f.has_contact = !s.contacts().empty();
   f.sound_speed = std::numeric_limits<Real>::infinity();
@@ -132,9 +131,9 @@ StopFacts facts_at_start(Simulation& s) {
   return f;
 }
 
-void add_facts_at_stop(StopFacts& f, Simulation& s, StopCause cause, const std::string& dt_set_by) {
+void add_facts_at_stop(StopFacts& f, Simulation& s, const RunError& error, const std::string& dt_set_by) {
   const World& w = s.world();
-  f.cause = cause;
+  f.cause = error.cause, f.hint = error.hint;
   f.cycle = s.clock().cycle;
   f.dt_set_by = dt_set_by;
   for (const auto& contact : s.contacts()) {

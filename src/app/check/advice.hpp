@@ -11,6 +11,7 @@ namespace courant {
 /// What is known of a run that stopped. Speeds in [L/T], lengths in [L], times in [T].
 struct StopFacts {
   StopCause cause = StopCause::other;
+  std::string hint;  ///< of the error itself
   std::int64_t cycle = 0;
   std::string dt_set_by;  ///< who set the last step
   bool has_contact = false;
@@ -26,16 +27,17 @@ struct StopFacts {
   std::int64_t leaked = 0;  ///< particles that went through a wall
   bool tension = false;     ///< some liquid allows tension (PC < 0)
   bool strength = false;    ///< some particles have strength
+  bool particles = true;    ///< there are any
 };
 
 /// Taken when the first step is known: what later states no longer tell.
 StopFacts facts_at_start(Simulation& simulation);
 /// The rest, when the run has stopped.
-void add_facts_at_stop(StopFacts& facts, Simulation& simulation, StopCause cause,
+void add_facts_at_stop(StopFacts& facts, Simulation& simulation, const RunError& error,
                        const std::string& dt_set_by);
 
-/// One line, without "hint: ". The first cause that fits: what the deck asked for (TSSFAC, places, units)
-/// comes before what the flow did.
+/// One line, without "hint: ", or nothing. The first cause that fits: what the deck asked for (TSSFAC,
+/// positions, units), then the hint of the error, then the state of the flow.
 std::string advice(const StopFacts& facts);
 
 }  // namespace courant

@@ -33,7 +33,7 @@ std::string model_part(const std::string& path, Deck deck, const DeckFacts& fact
     const std::string text = model_text(*simulation, model);
     return units_text(facts, model.sound_speeds()) + text;
   } catch (const RunError& fault) {  // a run would stop at its first step
-    diagnostics.error({path, 0, 0}, fault.what());
+    diagnostics.error({path, 0, 0}, fault.what(), fault.hint);
     return "";
   }
 }

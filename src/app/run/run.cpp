@@ -67,13 +67,14 @@ class Run {
   Summary execute() {
     print_start();
     try {
-      if (const std::string why = s_.why_not_until(end_); !why.empty()) throw RunError(why);
+      if (const std::string why = s_.why_not_until(end_); !why.empty())
+        throw RunError(why, "give the later end as ENDTIM");
       options_.restart ? go_on() : relax_first();
       if (summary_.reason.empty()) loop();
       finish_normally();
     } catch (const RunError& error) {
       fail(error.what());
-      explain(error.cause);
+      explain(error);
     } catch (const OutputError& error) {
       fail(error.what());
     }
@@ -248,7 +249,7 @@ class Run {
         break;
       case Kind::end_time:
         if (const std::string why = s_.why_not_until(order.end_time); !why.empty())
-          messag_.line(" *** Warning: the end stays: " + why);
+          messag_.line(" *** Warning: the end stays: " + why + "; give the later end as ENDTIM");
         else
           end_ = order.end_time;
         messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));
@@ -355,12 +356,13 @@ class Run {
   }
 
   /// What the state tells of the failure: advice, and the state itself for those who want to look.
-  void explain(StopCause cause) {
+  void explain(const RunError& error) {
     failed_state_ = true;
     s_.guard().note_ranges(s_.world(), s_.clock());
     s_.show_wall_forces();
-    add_facts_at_stop(facts_, s_, cause, who_);
-    failure_ += "\n     hint: " + (summary_.advice = advice(facts_));
+    add_facts_at_stop(facts_, s_, error, who_);
+    summary_.advice = advice(facts_);
+    if (!summary_.advice.empty()) failure_ += "\n     hint: " + summary_.advice;
   }
 
   /// Writes what can still be written; a second failure must not hide the first.

@@ -16,15 +16,21 @@ OutputSchedule schedule(const OutputTimes& times) {
   return {first_output(times), [times](Real due) { return next_output(times, due); }};
 }
 
-/// A history that a file adds: its text comes with the sample.
+/// A history that a file adds: its text and numbers come with the sample.
 HistoryRequests::Request request_of(const AsciiHistory& added, std::size_t number, const Simulation& s) {
-  std::vector<Legend> legend;
-  if (added.legend)
+  TextHistory file{.name = added.name, .empty_legend = false, .columns = added.columns};
+  file.text = [number](const Sample& sample, Real) { return sample.added[number].text; };
+  if (added.numbers)
+    file.numbers = [number](const Sample& sample, Real, HistoryNumbers& to) {
+      to = sample.added[number].numbers;
+    };
+  if (added.legend) {
+    std::vector<Legend> legend;
     for (const auto& [id, title] : added.legend(s.world())) legend.push_back({id, title});
-  const std::string head = (legend.empty() ? "" : ascii_legend(legend)) + added.columns;
-  return {{added.name, [number](const Sample& sample, Real) { return sample.added[number]; },
-           [head](const HistoryTitles&) { return head; }},
-          OutputSchedule(added.interval(s.deck()))};
+    file.legend = [legend](const HistoryTitles&) { return legend; };
+  }
+  return {std::move(file), OutputSchedule(added.interval(s.deck())),
+          added.binary ? added.binary(s.deck()) : 1};
 }
 
 HistoryTitles titles_of(const Simulation& s) {

@@ -192,6 +192,16 @@ void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) 
   all.push_back(one);
 }
 
+AddedSample added_sample(const AsciiHistory& added, const Deck& deck, const World& world,
+                         const Clock& clock) {
+  AddedSample out;
+  if (!(added.interval(deck) > 0)) return out;
+  const bool binary_alone = added.numbers && added.binary && added.binary(deck) == 2;
+  if (!binary_alone) out.text = added.text(world, clock);
+  if (added.numbers) added.numbers(world, clock, out.numbers);
+  return out;
+}
+
 }  // namespace
 
 void Simulation::show_wall_forces() {
@@ -228,7 +238,7 @@ void Simulation::sample_all(const std::string& dt_controlled_by, Sample& s) {
   for (const auto* wall : world_.passes.all<const RigidWallReporter>())
     s.rigid_walls.push_back(wall->report_wall());
   for (const AsciiHistory& added : ascii_histories())
-    s.added.push_back(added.interval(deck_) > 0 ? added.text(world_, clock_) : std::string());
+    s.added.push_back(added_sample(added, deck_, world_, clock_));
   const std::vector<Id>& wanted = model_.output.history_sph;
   const Particles& p = world_.particles;
   const auto index = places_of(wanted, p.id, p.size());

@@ -116,15 +116,11 @@ void Simulation::make_stepper() {
 std::string Simulation::why_not_until(Real end) const {
   for (const auto& [id, curve] : model_.curves)
     if (end > model_.endtim && curve.by_formula)
-      return fmt::format(
-          "curve {} is a formula that was taken until ENDTIM = {:g} only: give the later end as "
-          "ENDTIM",
-          id, model_.endtim);
+      return fmt::format("curve {} is a formula that was taken until ENDTIM = {:g} only", id, model_.endtim);
   for (const Injection& inlet : get<Injections>().inlets)
     if (end > model_.endtim && inlet.end > model_.endtim)
-      return fmt::format(
-          "the particles of {} ({}) last until ENDTIM = {:g} only: give the later end as ENDTIM",
-          deck_.keyword(inlet.card), deck_.place(inlet.card), model_.endtim);
+      return fmt::format("the particles of {} ({}) last until ENDTIM = {:g} only", deck_.keyword(inlet.card),
+                         deck_.place(inlet.card), model_.endtim);
   return "";
 }
 

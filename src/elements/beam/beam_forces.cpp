@@ -98,7 +98,9 @@ class BeamForces : public Material,
                     "against the middle of the beam at time {:.6g}, cycle {}",
                     group_.id[static_cast<Index>(folded - folded_.begin())], part_id_, most_turn, clock.t,
                     clock.cycle),
-        StopCause::element);
+        StopCause::element,
+        "it bears no such load: check the load and the units of its section and material, take more elements "
+        "along it, or let it fail (*MAT_ADD_EROSION, FAIL of its material)");
   }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Change change;

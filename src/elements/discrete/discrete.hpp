@@ -62,6 +62,9 @@ struct SpringReporter {
   virtual void report_springs(std::vector<SpringForce>& out) const = 0;
   /// That with this id, shown or not; nothing where there is none.
   virtual std::optional<SpringForce> find_spring(Id id) const = 0;
+  /// All of the part, shown or not.
+  virtual const ElementGroup& spring_group() const = 0;
+  virtual SpringForce spring(Index e) const = 0;
 };
 
 }  // namespace courant

@@ -91,14 +91,15 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
       if (group_.id[e] == id) return spring(e);
     return std::nullopt;
   }
+  const ElementGroup& spring_group() const override { return group_; }
+  SpringForce spring(Index e) const override {
+    return {group_.id[e], part_.turns, force_[e] * direction_.vec(e), force_[e], stretch_[e]};
+  }
 
  private:
   Field<Real>& add(const char* field, const char* dimension, int components, bool output) {
     return group_.fields.add<Real>(
         {.name = field, .dimension = dimension, .components = components, .output = output});
-  }
-  SpringForce spring(Index e) const {
-    return {group_.id[e], part_.turns, force_[e] * direction_.vec(e), force_[e], stretch_[e]};
   }
   static std::size_t at(Index e) { return static_cast<std::size_t>(e); }
   bool is_free(Index e) const { return part_.along[at(e)].isZero(); }

@@ -33,6 +33,7 @@ struct Elout : Pass {
   std::string name() const override { return "elout"; }
   std::array<std::vector<ListedElement>, 3> wanted{};  ///< of each kind, by id
   std::array<int, 3> history{};                        ///< numbers of the law to print
+  bool strains = false;
   ElementReportOptions options{};
 };
 
@@ -106,6 +107,7 @@ void build_elout(const Deck& deck, const Model& model, World& world, Diagnostics
   const auto* control = deck.last<ControlOutput>();
   const auto* extent = deck.last<DatabaseExtentBinary>();
   out->options = {.local_axes = control && control->eocs == 1, .all_points = extent && extent->nintsld == 8};
+  out->strains = extent && extent->strflg != 0;
   for (const ElementKind kind : kinds_of_elout)
     out->history[static_cast<std::size_t>(kind)] = card->history_of(kind);
   if (std::all_of(out->wanted.begin(), out->wanted.end(), [](const auto& list) { return list.empty(); }))
@@ -120,8 +122,9 @@ const Elout* elout_of(const World& world) {
   return found.empty() ? nullptr : found.front();
 }
 
-std::string elout_state(const World& world, const Clock& clock) {
-  std::string text;
+/// take(kind, elements, content) of each kind that has elements.
+template <class Take>
+void for_elements(const World& world, const Take& take) {
   const Elout* elout = elout_of(world);
   for (const ElementKind kind : kinds_of_elout) {
     const auto k = static_cast<std::size_t>(kind);
@@ -130,23 +133,39 @@ std::string elout_state(const World& world, const Clock& clock) {
     for (const Elout::ListedElement& one : elout->wanted[k])
       elements.push_back({one.element.id(), one.part, one.material,
                           one.element.reporter->report_element(world, one.element.e, elout->options)});
-    text += elout_text(kind, elements, clock, elout->options.local_axes, elout->history[k]);
+    take(kind, elements, EloutContent{elout->options.local_axes, elout->history[k], elout->strains});
   }
+}
+
+std::string elout_state(const World& world, const Clock& clock) {
+  std::string text;
+  for_elements(world, [&](ElementKind kind, const auto& elements, const EloutContent& content) {
+    text += elout_text(kind, elements, clock, content);
+  });
   return text;
+}
+
+void elout_numbers(const World& world, const Clock&, HistoryNumbers& to) {
+  for_elements(world, [&](ElementKind kind, const auto& elements, const EloutContent& content) {
+    add_elout_numbers(kind, elements, content, to);
+  });
 }
 
 const RegisterAsciiHistory elout{{.name = "elout",
                                   .interval = interval_in<DatabaseElout>,
                                   .text = elout_state,
-                                  .legend = [](const World& world) {
-                                    std::vector<std::pair<Id, std::string>> out;
-                                    if (const Elout* elout = elout_of(world))
-                                      for (const auto& list : elout->wanted)
-                                        for (const Elout::ListedElement& one : list)
-                                          if (!one.title.empty())
-                                            out.emplace_back(one.element.id(), one.title);
-                                    return out;
-                                  }}};
+                                  .legend =
+                                      [](const World& world) {
+                                        std::vector<std::pair<Id, std::string>> out;
+                                        if (const Elout* elout = elout_of(world))
+                                          for (const auto& list : elout->wanted)
+                                            for (const Elout::ListedElement& one : list)
+                                              if (!one.title.empty())
+                                                out.emplace_back(one.element.id(), one.title);
+                                        return out;
+                                      },
+                                  .numbers = elout_numbers,
+                                  .binary = binary_in<DatabaseElout>}};
 
 }  // namespace
 

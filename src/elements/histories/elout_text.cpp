@@ -14,12 +14,6 @@ const char* state_of(const ElementReport& element, const PointReport& point) {
   return element.deleted ? "failed" : point.plastic > 0 ? "plastic" : "elastic";
 }
 
-/// Of von Mises.
-Real effective(const std::array<Real, 6>& s) {
-  const Real a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
-}
-
 std::string six(const std::array<Real, 6>& values) {
   std::string out;
   for (const Real value : values) out += fmt::sprintf("%12.4E", value + 0.0);  // no -0
@@ -45,7 +39,7 @@ std::string solids_text(const Elements& elements, const Clock& clock) {
     int number = 0;
     for (const PointReport& point : one.report.points)
       out += fmt::sprintf("%8d %-7s %s%14.4E%14.4E\n", ++number, state_of(one.report, point),
-                          six(point.stress), effective(point.stress), point.plastic);
+                          six(point.stress), effective_stress(point.stress), point.plastic);
   }
   return out;
 }
@@ -120,7 +114,7 @@ std::string text_with_history(const char* kind, const Elements& elements, const 
     int number = 0;
     for (const PointReport& point : one.report.points) {
       out += fmt::sprintf("%8d %-7s %s%14.4E%14.4E\n", ++number, state_of(one.report, point),
-                          six(point.stress), effective(point.stress), point.plastic);
+                          six(point.stress), effective_stress(point.stress), point.plastic);
       histories += history_of_point(one.report, point, number, history);
     }
   }
@@ -140,10 +134,35 @@ std::string resultants_text(const Elements& elements, const Clock& clock) {
   return out;
 }
 
-}  // namespace
+std::string solid_strains_text(const Elements& elements, const Clock& clock) {
+  std::string out = heading("s t r a i n", clock);
+  out +=
+      "\n element  materl\n element  strain       eps-xx      eps-yy      eps-zz      eps-xy      eps-yz     "
+      " "
+      "eps-zx\n num/ipt   state\n";
+  for (const EloutElement& one : elements) {
+    out += fmt::sprintf("%8d-%7d\n", one.id, one.part);
+    int number = 0;
+    for (const PointReport& point : one.report.points)
+      out += fmt::sprintf("%8d %-7s %s\n", ++number, state_of(one.report, point), six(point.strain));
+  }
+  return out;
+}
 
-std::string elout_text(ElementKind kind, const Elements& elements, const Clock& clock, bool local,
-                       int history) {
+std::string shell_strains_text(const Elements& elements, bool local) {
+  std::string out =
+      fmt::format("\n strains {:8}      eps-xx      eps-yy      eps-zz", local ? "(local)" : "(global)");
+  out += "      eps-xy      eps-yz      eps-zx\n\n";
+  for (const EloutElement& one : elements)
+    if (!one.report.points.empty())
+      out += fmt::sprintf("%8d-%7d\n lower surface   %s\n upper surface   %s\n", one.id, one.part,
+                          six(one.report.points.front().strain), six(one.report.points.back().strain));
+  return out;
+}
+
+std::string stress_text(ElementKind kind, const Elements& elements, const Clock& clock,
+                        const EloutContent& content) {
+  const int history = content.history;
   switch (kind) {
     case ElementKind::solid:
       return history > 0 ? text_with_history("solid", elements, clock, history)
@@ -156,7 +175,22 @@ std::string elout_text(ElementKind kind, const Elements& elements, const Clock& 
       break;
   }
   return history > 0 ? text_with_history("shell", elements, clock, history)
-                     : shells_text(elements, clock, local);
+                     : shells_text(elements, clock, content.local);
+}
+
+}  // namespace
+
+Real effective_stress(const std::array<Real, 6>& s) {
+  const Real a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+std::string elout_text(ElementKind kind, const Elements& elements, const Clock& clock,
+                       const EloutContent& content) {
+  std::string out = stress_text(kind, elements, clock, content);
+  if (content.strains && kind == ElementKind::solid) out += solid_strains_text(elements, clock);
+  if (content.strains && kind == ElementKind::shell) out += shell_strains_text(elements, content.local);
+  return out;
 }
 
 }  // namespace courant

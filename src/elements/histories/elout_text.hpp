@@ -1,9 +1,11 @@
 #pragma once
-// Layout of elout: that of LS-DYNA.
+// Layout of elout, as text and in binout: that of LS-DYNA.
+#include <array>
 #include <string>
 #include <vector>
 
 #include "elements/element_report.hpp"
+#include "state/history_numbers.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -15,9 +17,20 @@ struct EloutElement {
   ElementReport report{};
 };
 
-/// A state of the elements of a kind, which are not empty. `local`: axes of shells. `history`: how many
-/// numbers of the law follow; from 1 on the layout of all kinds is the one that LS-DYNA has for that.
+struct EloutContent {
+  bool local = false;    ///< axes of shells
+  int history = 0;       ///< numbers of the law; from 1 on the layout is LS-DYNA's for that, of all kinds
+  bool strains = false;  ///< of solids and shells (STRFLG)
+};
+
+/// A state of the elements of a kind, which are not empty.
 std::string elout_text(ElementKind kind, const std::vector<EloutElement>& elements, const Clock& clock,
-                       bool local, int history);
+                       const EloutContent& content);
+/// The same numbers for binout, in the folders `solid`, `beam` and `shell`, and for history.h5.
+void add_elout_numbers(ElementKind kind, const std::vector<EloutElement>& elements,
+                       const EloutContent& content, HistoryNumbers& to);
+
+/// Of von Mises. [M/LT2]
+Real effective_stress(const std::array<Real, 6>& stress);
 
 }  // namespace courant

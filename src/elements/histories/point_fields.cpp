@@ -95,6 +95,35 @@ class PointFields : public FieldFiller, public Pass {
   std::vector<Shown> fields_;
 };
 
+/// STRFLG: `strain_tensor` of solids, the mean over their points; `strain_lower`, `strain_upper` of shells.
+class StrainFields : public FieldFiller, public Pass {
+ public:
+  explicit StrainFields(const ElementReporter& reporter) : reporter_(reporter) {
+    const auto add = [&](const char* name) {
+      fields_.push_back(&reporter.reported().fields.add<Real>(
+          {.name = name, .dimension = "-", .components = 6, .output = true, .restart = false}));
+    };
+    if (reporter.kind() == ElementKind::solid)
+      add("strain_tensor");
+    else
+      add("strain_lower"), add("strain_upper");
+  }
+  std::string name() const override { return "strains of " + reporter_.reported().fields.name(); }
+  void fill_fields(World& world) override {
+    for (Index e = 0; e < reporter_.reported().size(); ++e) {
+      const std::vector<PointReport> points = reporter_.report_element(world, e, {}).points;
+      for (std::size_t side = 0; side < fields_.size() && !points.empty(); ++side) {
+        const auto& strain = (side == 0 ? points.front() : points.back()).strain;
+        for (int k = 0; k < 6; ++k) fields_[side]->data(k)[e] = strain[static_cast<std::size_t>(k)];
+      }
+    }
+  }
+
+ private:
+  const ElementReporter& reporter_;
+  std::vector<Field<Real>*> fields_;
+};
+
 void build_point_fields(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
   const auto* card = deck.last<DatabaseExtentBinary>();
   if (!card || (!model.output.d3plot.asked() && model.output.d3plot_count == 0)) return;
@@ -118,6 +147,8 @@ void build_point_fields(const Deck& deck, const Model& model, World& world, Diag
         if (count > 1) points = shown_points(count, false, count);
         break;
     }
+    if (card->strflg != 0 && reporter->kind() != ElementKind::beam)
+      world.passes.add(std::make_shared<StrainFields>(*reporter));
     if (!points.empty())
       world.passes.add(std::make_shared<PointFields>(*reporter, std::move(points), options, history));
   }

@@ -189,6 +189,30 @@ std::string secforc_state(const World& world, const Clock& clock) {
   return out;
 }
 
+void secforc_numbers(const World& world, const Clock&, HistoryNumbers& to) {
+  using S = std::pair<const CrossSection*, SectionForce>;
+  std::vector<S> all;
+  for (const auto* sections : world.passes.all<const CrossSections>())
+    for (const CrossSection& section : sections->sections) all.emplace_back(&section, section.force(world));
+  const auto none = [](const S&) { return 0; };
+  HistoryRows(
+      to, "", all, [](const S& s) { return s.first->id; }, "sections")
+      .title([](const S& s) { return s.first->title; })
+      .fixed("rigidbody", none)
+      .fixed("accelerometer", none)
+      .fixed("coordinate_system", [](const S& s) { return s.first->system; })
+      .vector(
+          "{}_force", [](const S& s) { return s.second.force; }, "ML/T2")
+      .real("total_force", [](const S& s) { return s.second.force.norm(); })
+      .vector(
+          "{}_moment", [](const S& s) { return s.second.moment; }, "ML2/T2")
+      .real("total_moment", [](const S& s) { return s.second.moment.norm(); })
+      .vector(
+          "{}_centroid", [](const S& s) { return s.second.centroid; }, "L")
+      .real(
+          "area", [](const S& s) { return s.second.area; }, "L2");
+}
+
 const RegisterAsciiHistory secforc{
     {.name = "secforc",
      .interval = interval_in<DatabaseSecforc>,
@@ -203,7 +227,9 @@ const RegisterAsciiHistory secforc{
          },
      .columns = "\n\n line#1  section#     time        x-force     y-force     z-force    magnitude\n"
                 " line#2  resultant  moments       x-moment    y-moment    z-moment   magnitude\n"
-                " line#3  centroids                x           y           z            area  \n"}};
+                " line#3  centroids                x           y           z            area  \n",
+     .numbers = secforc_numbers,
+     .binary = binary_in<DatabaseSecforc>}};
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "elements/nodal_rotations.hpp"
+#include "elements/shell/distortion.hpp"
 #include "elements/shell/facets.hpp"
 #include "elements/shell/shells.hpp"
 #include "laws/strength/material_axes.hpp"
@@ -26,6 +27,33 @@ Real warp_angle(const World& world, const std::array<Index, 4>& node) {
   };
   const Real cosine = std::min(normal(0, 1, 2).dot(normal(0, 2, 3)), normal(1, 2, 3).dot(normal(1, 3, 0)));
   return std::acos(std::clamp<Real>(cosine, -1, 1)) * 180 / pi;
+}
+
+/// Quadrilaterals whose area is turned inwards: with 2 x 2 points at one of these, which the formulation
+/// cannot compute, else at a corner, where it is wrong.
+void check_corners(const Model& model, const std::vector<ShellPart>& parts, const World& world,
+                   Diagnostics& diagnostics) {
+  std::vector<std::vector<Id>> inwards(parts.size());
+  for (std::size_t s = 0; s < model.shells.size(); ++s) {
+    const auto part = static_cast<std::size_t>(model.shells[s].part);
+    const auto node = world.segments.nodes(static_cast<Index>(s));
+    if (!parts[part].law || parts[part].null || node[2] == node[3]) continue;
+    const auto x = [&](std::size_t c) { return Vec(world.nodes.x.vec(node[c])); };
+    if (turns_inwards({x(0), x(1), x(2), x(3)}, parts[part].full))
+      inwards[part].push_back(model.shells[s].id);
+  }
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (inwards[k].empty()) continue;
+    const std::string which =
+        fmt::format("{} {} of part {} {} turned inwards at a {}, the first is shell {}", inwards[k].size(),
+                    inwards[k].size() == 1 ? "shell" : "shells", model.parts[k].id,
+                    inwards[k].size() == 1 ? "is" : "are", parts[k].full ? "point" : "corner", inwards[k][0]);
+    const char* hint = "move the node at the corner, or make two triangles of the quadrilateral";
+    if (parts[k].full)
+      diagnostics.error(model.parts[k].where, which, hint);
+    else
+      diagnostics.warning(model.parts[k].where, which, hint);
+  }
 }
 
 void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const World& world,
@@ -320,6 +348,7 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
     group.layup = alike.layup;
     fill_group(model, parts[part].of(alike.layup), alike.shells, node_of, world, group, diagnostics);
   }
+  check_corners(model, parts, world, diagnostics);
   warn_of_warp(model, parts, world, diagnostics);
   note_facets(model, parts, world, diagnostics);
 }

@@ -11,6 +11,7 @@
 #include "base/run_error.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/null_elements.hpp"
+#include "elements/point_strains.hpp"
 #include "elements/shell/distortion.hpp"
 #include "elements/shell/facets.hpp"
 #include "elements/shell/flow_stress.hpp"
@@ -80,6 +81,9 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
     rules.distorted = part.deletes_distorted;
     if (rules.any()) options.eroding.push_back(erosion_ = make_erosion(rules, world));
+    if (!options.strains) return;
+    strains_.emplace(group, state_.points);
+    if (erosion_) erosion_->vanishes(strains_->field());
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -97,6 +101,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     for (const Field<Real>* h : history_) a.updates(*h);
     if (erosion_) erosion_->declare(world, a);
     if (damping_) damping_->declare(a);
+    if (strains_) strains_->declare(a);
     if (!scaled_) return;
     a.reads(scaled_->inertial());
     scaled_->declare(world, a);
@@ -227,6 +232,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
         for (Index i = 0; i < block.count; ++i)
           faster[i] = std::max(faster[i], sound_speed[i] / layer.law->sound_speed());
       if (failing) look_at_point(p, begin, *failing, points, rate_zz);
+      if (strains_ && !(erosion_ && erosion_->strain())) strains_->advance(p, begin, points, rate_zz);
       if (thins_by_flow_) thinning.after(points, *layer.law, layer.plastic >= 0, rate_zz);
       if (damping_) damping_->add_in_plane(*layer.law, p, points, begin);
       for (Index i = 0; i < block.count; ++i) scratch.thickening[i] += state_.share[p] * rate_zz[i];
@@ -384,9 +390,12 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
   [[noreturn]] void stop_for_thickness(Index e, const Clock& clock) const {
     const ReadsForMessage unchecked;
-    throw RunError(fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}",
-                               group_.id[e], part_id_, state_.thickness[e], clock.t, clock.cycle),
-                   std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element);
+    throw RunError(
+        fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}", group_.id[e],
+                    part_id_, state_.thickness[e], clock.t, clock.cycle),
+        std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element,
+        "it has been drawn to nothing: let it fail (*MAT_ADD_EROSION, FAIL of its material), or keep "
+        "its thickness (ISTUPD 0 of *CONTROL_SHELL)");
   }
 
   /// What is at a point through the thickness.
@@ -433,6 +442,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
   std::unique_ptr<ShellState> damped_;         ///< with the stress that pushes the nodes; null: `state_`
   std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
+  std::optional<PointStrains> strains_;        ///< none: not requested
   const Field<Real>* directions_ = nullptr;    ///< null: no law knows any
   const Field<Real>* offset_ = nullptr;        ///< null: the middle is where the nodes are
   bool fails_with_all_ = false;
@@ -477,7 +487,7 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
     if (options.sections) group->keep_corner_forces(), group->keep_corner_moments();
     world.passes.add(std::make_shared<ShellForces>(part, *group, model.parts[named].id, model.tssfac, options,
                                                    held, world));
-    world.passes.add(make_shell_report(part, *group, shown));
+    world.passes.add(make_shell_report(part, *group, shown, options.strains));
   }
   if (auto watch = make_curvature_watch(parts, world)) world.passes.add(std::move(watch));
 }

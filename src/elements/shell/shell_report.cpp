@@ -5,10 +5,12 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "elements/element_report.hpp"
+#include "elements/point_strains.hpp"
 #include "elements/shell/shells.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 class ShellReport : public Pass, public ElementReporter, public FieldFiller {
  public:
-  ShellReport(const ShellPart& part, const ElementGroup& group, bool shown)
+  ShellReport(const ShellPart& part, const ElementGroup& group, bool shown, bool strains)
       : group_(group),
         zeta_(part.zeta),
         share_(part.share),
@@ -34,6 +36,7 @@ class ShellReport : public Pass, public ElementReporter, public FieldFiller {
       for (const HistoryVariable& h : part.law_of(p % layers_).history())
         history_[p].push_back(&layer_history_of(group, h, static_cast<int>(p)));
     for (std::size_t k = 0; k < layers_; ++k) plastic_[k] = plastic_strain_of(part.law_of(k));
+    if (strains) strains_.emplace(group, static_cast<int>(history_.size()));
     if (shown) add_shown_fields(part);
   }
   std::string name() const override { return "report of " + group_.fields.name(); }
@@ -122,6 +125,7 @@ class ShellReport : public Pass, public ElementReporter, public FieldFiller {
       out.stress[static_cast<std::size_t>(k)] = stress_.data(at_layer(static_cast<int>(p), k))[e];
     for (const Field<Real>* h : history_[p])
       for (int k = 0; k < h->info().components; ++k) out.history.push_back(h->data(k)[e]);
+    if (strains_) out.strain = strains_->at(static_cast<int>(p), e);
     return out;
   }
   Matrix axes_of(const World& world, Index e) const {
@@ -132,11 +136,13 @@ class ShellReport : public Pass, public ElementReporter, public FieldFiller {
   }
   static void turn(const Matrix& axes, std::vector<PointReport>& points) {
     for (PointReport& point : points) {
-      auto& s = point.stress;
-      Matrix local;
-      local << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-      const Matrix t = axes * local * axes.transpose();
-      s = {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)};
+      for (auto* tensor : {&point.stress, &point.strain}) {
+        auto& s = *tensor;
+        Matrix local;
+        local << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+        const Matrix t = axes * local * axes.transpose();
+        s = {t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(2, 0)};
+      }
     }
   }
 
@@ -152,6 +158,7 @@ class ShellReport : public Pass, public ElementReporter, public FieldFiller {
   const Field<Real>&stress_, &thickness_;
   std::vector<std::vector<const Field<Real>*>> history_;  ///< of each point
   std::vector<int> plastic_;                    ///< of each layer, among the numbers of its law; -1: none
+  std::optional<PointStrains> strains_;         ///< none: not requested
   std::array<Field<Real>*, 2> shown_stress_{};  ///< null: nothing is shown
   Field<Real>*shown_force_ = nullptr, *shown_moment_ = nullptr;
   std::vector<Largest> shown_history_;
@@ -165,9 +172,10 @@ PointReport mean_of(const std::vector<PointReport>& points) {
     std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
   };
   for (std::size_t p = 1; p < points.size(); ++p)
-    add(out.stress, points[p].stress), add(out.history, points[p].history);
+    add(out.stress, points[p].stress), add(out.strain, points[p].strain), add(out.history, points[p].history);
   const auto n = static_cast<Real>(points.size());
   for (Real& s : out.stress) s /= n;
+  for (Real& s : out.strain) s /= n;
   for (Real& h : out.history) h /= n;
   return out;
 }
@@ -182,8 +190,9 @@ Field<Real>& layer_history_of(const ElementGroup& group, const HistoryVariable& 
                                  .components = kind.components});
 }
 
-std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group, bool shown) {
-  return std::make_shared<ShellReport>(part, group, shown);
+std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group, bool shown,
+                                        bool strains) {
+  return std::make_shared<ShellReport>(part, group, shown, strains);
 }
 
 }  // namespace courant

@@ -92,7 +92,8 @@ Field<Real>& thickness_of_shells(const ElementGroup& group);  ///< [L]
 Field<Real>* offset_of_shells(const ElementGroup& group);
 /// Tells histories of the shells of a group, which `part` are made of, and, where they are `shown`, the field
 /// files.
-std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group, bool shown);
+std::shared_ptr<Pass> make_shell_report(const ShellPart& part, const ElementGroup& group, bool shown,
+                                        bool strains);
 
 /// Adds the forces of shells to the passes of `world`. Computes the largest frequency of each group, which
 /// bounds the step.

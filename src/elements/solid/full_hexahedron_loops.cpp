@@ -74,6 +74,7 @@ COURANT_INLINE void begin_of(Index k, Real dt, bool heats, PointScratch& scratch
   store(scratch.middle_volume + k, 0.015625 * middle.V64);
   for (int m = 0; m < 21; ++m) store(scratch.force[m] + k, all(0));
   store(scratch.pressure + k, all(0)), store(scratch.fastest + k, all(0)), store(scratch.work + k, all(0));
+  store(scratch.least_weight + k, all(1e300));
 }
 
 COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const GaussPoint& at,
@@ -104,6 +105,8 @@ COURANT_INLINE void add_of(Index first, Index n, Index k, Real dt, const GaussPo
   const Native mean = (s[0] + s[1] + s[2]) * (1.0 / 3);
   store(scratch.pressure + k, load(scratch.pressure + k) - weight * mean);
   store(scratch.fastest + k, native_max(load(scratch.fastest + k), load(scratch.sound_speed + k)));
+  const Native least = load(scratch.least_weight + k);
+  store(scratch.least_weight + k, weight < least ? weight : least);
   for (int j = 0; j < 3; ++j) s[j] -= mean;
   const Triple T[3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
   for (int i = 0; i < 3; ++i) {
@@ -130,6 +133,10 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Soli
   const Geometry now = geometry(a);
   store(scratch.sound_speed + k, load(scratch.fastest + k));
   const Compressed of = compressed(first, n, k, dt, control, state, now.V64, thickness(a, now.V64), scratch);
+  // inside out at a point is inside out: the stress there has no meaning any more
+  const Native least = load(scratch.least_weight + k);
+  const Native V0 = load(state.V0 + first, n);
+  store(scratch.relative_volume + k, least > 0.0 ? load(scratch.relative_volume + k) : 8.0 * least / V0);
   // 64 p dV/da of the modes, with the volume that is in the mean of p
   const Native p = load(scratch.pressure + k) * of.inverse_V64 + 0.015625 * of.q;
   for (int i = 0; i < 3; ++i) {

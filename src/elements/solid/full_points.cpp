@@ -113,10 +113,11 @@ void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& h
   for (std::size_t h = 0; h < history_.size(); ++h) mean(*history_[h], *history[h]);
 }
 
-std::vector<PointReport> FullPoints::report(Index e, bool all_points) const {
+std::vector<PointReport> FullPoints::report(Index e, bool all_points, const PointStrains* strains) const {
   std::vector<PointReport> out(points_);
   for (std::size_t p = 0; p < out.size(); ++p) {
     const int at = static_cast<int>(p);
+    if (strains) out[p].strain = strains->at(at, e);
     for (int k = 0; k < 6; ++k) out[p].stress[static_cast<std::size_t>(k)] = stress_.data(6 * at + k)[e];
     for (const Field<Real>* h : history_) {
       const int n = h->info().components / points_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "elements/element_report.hpp"
+#include "elements/point_strains.hpp"
 #include "elements/solid/formulation.hpp"
 #include "elements/solid/solid_pressure.hpp"
 #include "laws/strength/strength.hpp"
@@ -61,8 +62,8 @@ class FullPoints {
   void start_pressure(Real p);
   /// Means over the points. `history`: a field for each number of the law, as the law has them.
   void average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const;
-  /// The points of an element, or their mean, without plastic strains.
-  std::vector<PointReport> report(Index e, bool all_points) const;
+  /// The points of an element, or their mean, without plastic strains. `strains`: null: there are none.
+  std::vector<PointReport> report(Index e, bool all_points, const PointStrains* strains) const;
   /// Those that are 0 in deleted elements.
   std::vector<Field<Real>*> of_deleted() const;
 

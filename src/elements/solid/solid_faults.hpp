@@ -1,5 +1,6 @@
 #pragma once
-// Solids with which a run cannot go on.
+// Solids with which a run cannot continue, and deleted ones.
+#include "elements/erosion.hpp"
 #include "elements/solid/solid_loops.hpp"
 #include "state/entities.hpp"
 #include "state/pass.hpp"
@@ -12,5 +13,8 @@ namespace courant {
 /// An element is turned inside out, or has a volume that is no number.
 [[noreturn]] void stop_for_volume(const ElementGroup& group, Id part, const StableStep& found,
                                   const Clock& clock);
+
+/// Deleted elements of a block become a cube at rest without stress.
+void hold_deleted(const Erosion& erosion, Index begin, Index count, SolidScratch& scratch);
 
 }  // namespace courant

@@ -7,6 +7,7 @@
 
 #include "elements/element_report.hpp"
 #include "elements/largest_frequency.hpp"
+#include "elements/point_strains.hpp"
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/mode_watch.hpp"
 #include "elements/solid/nodal_pressure.hpp"
@@ -78,6 +79,7 @@ class SolidForces : public Material,
     if (part.formulation->nodal_pressure) nodal_ = NodalPressure::add(group, part.relative_volume(), world);
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
+    if (options.strains) keep_strains();
   }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
@@ -92,6 +94,7 @@ class SolidForces : public Material,
     if (nodal_) nodal_->declare(a);
     if (damping_) damping_->declare(a);
     if (erosion_) erosion_->declare(world, a);
+    if (strains_) strains_->declare(a);
     if (!scaled_) return;
     scaled_->declare(world, a);
     a.in_finish().updates(rho0_);
@@ -116,7 +119,8 @@ class SolidForces : public Material,
       for (int k = 0; k < 6; ++k) state_.tensor[state_.tensors][k] = h->data(k);
       ++state_.tensors;
     }
-    if (Field<Real>* strain = erosion_ ? erosion_->strain() : nullptr) {
+    if (Field<Real>* strain = failure_strain(); strain || strains_) {
+      if (!strain) strain = &strains_->field();
       for (int k = 0; k < 6; ++k) state_.tensor[state_.tensors][k] = strain->data(k);
       ++state_.tensors;
     }
@@ -170,12 +174,13 @@ class SolidForces : public Material,
   ElementReport report_element(const World&, Index e, const ElementReportOptions& options) const override {
     ElementReport out{.deleted = erosion_ && erosion_->dead(e)};
     if (full_) {
-      out.points = full_->report(e, options.all_points);
+      out.points = full_->report(e, options.all_points, strains_.get());
     } else {
       PointReport& point = out.points.emplace_back();
       for (int k = 0; k < 6; ++k) point.stress[static_cast<std::size_t>(k)] = stress_.data(k)[e];
       for (const Field<Real>* h : history_)
         for (int k = 0; k < h->info().components; ++k) point.history.push_back(h->data(k)[e]);
+      if (strains_) point.strain = strains_->at(0, e);
     }
     if (const int plastic = plastic_strain_of(*law_); plastic >= 0)
       for (PointReport& point : out.points) point.plastic = point.history[static_cast<std::size_t>(plastic)];
@@ -232,7 +237,7 @@ class SolidForces : public Material,
     const ElementBlock block{begin, end - begin, dt};
     if (full_) return advance_points(of, block, scratch, failing);
     loops_.strain(block, of.mesh, of.control, of.state, scratch);
-    if (failing && erosion_->any_dead(begin)) still_dead(begin, block.count, scratch);
+    if (failing && erosion_->any_dead(begin)) hold_deleted(*erosion_, begin, block.count, scratch);
     NodalPressure::Scratch by_nodes;
     if (of.nodal) of.nodal->strain(block, of.state, scratch, by_nodes);
     std::array<Real*, most_history> history{};
@@ -273,7 +278,8 @@ class SolidForces : public Material,
                             const Clock* failing) {
     const FullPoints::Between between{
         [&] {
-          if (failing && erosion_->any_dead(block.begin)) still_dead(block.begin, block.count, scratch);
+          if (failing && erosion_->any_dead(block.begin))
+            hold_deleted(*erosion_, block.begin, block.count, scratch);
         },
         [&](int point, const PointBlock& points) { answered(points, block.begin, point, failing); }};
     if (!of.pressure) return full_->advance(of, block, scratch, between);
@@ -286,6 +292,7 @@ class SolidForces : public Material,
   /// Behind the law at a point.
   void answered(const PointBlock& points, Index begin, int point, const Clock* failing) const {
     if (failing) look_for_failure(points, begin, point, *failing);
+    if (strains_ && !failure_strain()) strains_->advance(point, begin, points);
     if (scaled_)  // waves of a body that is as stiff and denser
       for (Index i = 0; i < points.count; ++i)
         points.sound_speed[i] *= std::sqrt(law_->ro / rho0_[begin + i]);
@@ -301,6 +308,13 @@ class SolidForces : public Material,
     points.pressure = own.pressure, points.energy = own.energy, points.least_pressure = own.least_pressure;
     of.law.update(points);
     return of.pressure->complete(block, of.state, scratch, own);
+  }
+
+  Field<Real>* failure_strain() const { return erosion_ ? erosion_->strain() : nullptr; }
+  void keep_strains() {
+    strains_ = std::make_unique<PointStrains>(group_, material_.formulation->points);
+    if (full_ && !failure_strain()) full_->turn_too(strains_->field());
+    if (erosion_) erosion_->vanishes(strains_->field());
   }
 
   void look_for_failure(const PointBlock& points, Index begin, int point, const Clock& clock) const {
@@ -369,21 +383,6 @@ class SolidForces : public Material,
     if (full_ && out->strain()) full_->turn_too(*out->strain());
     plastic_ = plastic_strain_of(*law_), fails_ = history_at(*law_, law_->failure_variable());
     return out;
-  }
-
-  /// Dead elements of a block are taken as a cube that does not move, and stay without stress.
-  void still_dead(Index begin, Index count, SolidScratch& scratch) const {
-    for (Index i = 0; i < count; ++i) {
-      if (!erosion_->dead(begin + i)) continue;
-      erosion_->clear(begin + i);
-      for (auto& rate : scratch.rate) rate[i] = 0;
-      for (auto& speed : scratch.speed) speed[i] = 0;
-      for (auto& turn : scratch.half_turn) turn[i] = 0;
-      for (std::size_t k = 0; k < SolidScratch::rows; ++k)
-        scratch.position[k][i] = k == 0 || k == 4 || k == 8 ? 1 : 0;
-      for (auto& opened : scratch.opened) opened[i] = 0;
-      scratch.compression[i] = scratch.work[i] = 0, scratch.middle_volume[i] = 1;
-    }
   }
 
   /// To the state of the start: without stress, history, energies and forces.
@@ -479,6 +478,7 @@ class SolidForces : public Material,
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
   std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
   std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
+  std::unique_ptr<PointStrains> strains_;      ///< null: not requested
   /// Of the law's numbers the plastic strain, and what it fails by.
   int plastic_ = -1, fails_ = -1;
 };

@@ -109,11 +109,12 @@ OnePointLoops hexahedron_loops();
 /// Of a block of elements with several points; `rate`, `half_turn` and `sound_speed` are those of the point
 /// at work.
 struct PointScratch : SolidScratch {
-  Real mean_trace[block_size];   ///< of D at mid-step, mean over the element [1/T]
-  Real weight[block_size];       ///< volume of the point at work at mid-step [L3]
-  Real force[rows][block_size];  ///< of the points so far, by what `position` has [ML/T2]
-  Real pressure[block_size];     ///< times volume, of the points so far [ML2/T2]
-  Real fastest[block_size];      ///< sound speed of the points so far [L/T]
+  Real mean_trace[block_size];    ///< of D at mid-step, mean over the element [1/T]
+  Real weight[block_size];        ///< volume of the point at work at mid-step [L3]
+  Real force[rows][block_size];   ///< of the points so far, by what `position` has [ML/T2]
+  Real pressure[block_size];      ///< times volume, of the points so far [ML2/T2]
+  Real fastest[block_size];       ///< sound speed of the points so far [L/T]
+  Real least_weight[block_size];  ///< of the points so far, at the end of the step [L3]
 };
 
 /// A formulation with several points.

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/json_text.hpp"
 #include "keyword/help/keyword_state.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
@@ -181,6 +182,28 @@ std::vector<const KeywordSpec*> sorted_registry() {
   return out;
 }
 
+const char* numbered_by(IdSpace space) {
+  return space == IdSpace::none ? "" : id_word(space);
+}
+
+void add_field(const FieldSpec& field, JsonText& json) {
+  json.open(nullptr, '{');
+  json.text("name", field.name);
+  json.whole("column", field.column);
+  json.whole("width", field.takes_rest ? 80 - field.column : field.rules.width);
+  json.text("type", type_name(field).substr(0, 1));
+  json.flag("list", field.is_vector());
+  json.text("meaning", field.meaning);
+  json.text("dimension", field.dimension);
+  json.text("default", standard_value(field));
+  json.text("accepted", accepted(field));
+  json.text("refers", field.refers ? "varies" : numbered_by(field.rules.refers));
+  json.open("allowed", '[');
+  for (const int value : field.rules.allowed) json.whole(nullptr, value);
+  json.close();
+  json.close();
+}
+
 }  // namespace
 
 std::string describe_field(const KeywordSpec& spec, int name, std::size_t card, std::size_t field) {
@@ -216,6 +239,45 @@ std::string keyword_list() {
     for (const std::string& name : spec->names)
       out += fmt::format("*{:<44} {:<10} {}\n", name, state_word(support_of(*spec).state), spec->purpose);
   return out + "\n" + state_legend();
+}
+
+std::string keyword_json() {
+  JsonText json;
+  json.open(nullptr, '[');
+  for (const KeywordSpec* spec : sorted_registry()) {
+    json.open(nullptr, '{');
+    json.open("names", '[');
+    for (const std::string& name : spec->names) json.text(nullptr, name);
+    json.close();
+    json.text("purpose", spec->purpose);
+    json.text("state", state_word(support_of(*spec).state));
+    json.text("support", support_text(*spec));
+    json.text("defines", numbered_by(spec->id_space));
+    json.open("options", '[');
+    if (spec->title_option) json.text(nullptr, "TITLE");
+    if (spec->id_option) json.text(nullptr, "ID");
+    if (spec->mpp_option) json.text(nullptr, "MPP");
+    if (spec->collect_option) json.text(nullptr, "COLLECT");
+    json.close();
+    json.flag("heading", spec->heading);
+    json.flag("many", spec->many);
+    json.open("cards", '[');
+    for (const CardSpec& card : spec->cards) {
+      json.open(nullptr, '{');
+      json.flag("optional", card.optional);
+      json.flag("conditional", static_cast<bool>(card.when));
+      json.flag("repeated", card.repeat);
+      json.open("fields", '[');
+      for (const FieldSpec& field : card.fields)
+        if (field.type != FieldType::skip) add_field(field, json);
+      json.close();
+      json.close();
+    }
+    json.close();
+    json.close();
+  }
+  json.close();
+  return json.take();
 }
 
 std::string keyword_markdown() {

@@ -30,6 +30,9 @@ std::string support_text(const KeywordSpec& spec);
 /// What the words of the states mean, for the foot of a list.
 std::string state_legend();
 
+/// All tables for programs: a list of keywords with their cards and fields.
+std::string keyword_json();
+
 /// The whole of docs/cannot_do.md.
 std::string cannot_do_markdown();
 

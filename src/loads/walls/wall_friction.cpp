@@ -50,7 +50,7 @@ Vec OrthoFriction::force(const Vec& n, const Vec& slip, Real normal, Real m, Rea
     throw RunError(
         "the direction of friction between NODE1 and NODE2 of a *RIGIDWALL_PLANAR_ORTHO is normal "
         "to the wall",
-        StopCause::direction);
+        "name two nodes whose line stays along the wall, or give the direction by D1, D2, D3, which stays");
   const Vec a = along.normalized(), b = n.cross(a);
   const Pair u{slip.dot(a), slip.dot(b)}, mu = coefficients(slip.norm());
   const Real speed = std::hypot(u[0], u[1]);

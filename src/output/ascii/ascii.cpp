@@ -77,8 +77,8 @@ void remove_ours(const std::filesystem::path& file) {
 Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
                      const HistoryPositions* resume)
     : dir_(dir) {
-  const std::string header =
-      ascii_header(requests.title, fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr))));
+  const std::string date = fmt::format("{:%m/%d/%Y}", fmt::localtime(std::time(nullptr)));
+  const std::string header = ascii_header(requests.title, date);
   make_folder(dir);
   std::vector<std::string> unused;
   for (const TextHistory& file : text_histories())
@@ -87,18 +87,20 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
       unused.push_back(file.name);
   for (HistoryRequests::Request& request : requests.files) {
     const std::string& name = request.file.name;
-    const bool binout = request.binary == 2 || request.binary == 3;
-    const bool text = request.binary != 2 || !has_binout(name);
+    const bool binout = (request.binary == 2 || request.binary == 3) && request.file.numbers;
+    const bool text = request.binary != 2 || !request.file.numbers;
     if (!request.schedule.is_wanted() || !text) unused.push_back(name);
     if (!request.schedule.is_wanted()) continue;
-    files_.push_back({request.schedule,
-                      name,
-                      {},
-                      binout && has_binout(name),
-                      std::move(request.file.text),
-                      request.gauge,
-                      request.layout,
-                      {}});
+    files_.push_back(
+        {request.schedule,
+         name,
+         {},
+         binout ? request.file.numbers : nullptr,
+         binout && request.file.legend ? request.file.legend(requests.titles) : std::vector<Legend>(),
+         std::move(request.file.text),
+         request.gauge,
+         request.layout,
+         {}});
     if (!text) continue;
     if (request.gauge) make_folder(dir / result_names::gauges);
     const bool goes_on = resume && resume->bytes.contains(name);
@@ -111,17 +113,12 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
     if (file.size() == 0 && request.gauge)
       file.write(gauge_head(request.layout));
     else if (file.size() == 0)
-      file.write(header + (request.file.head ? request.file.head(requests.titles) : std::string()));
+      file.write(header + history_head(request.file, requests.titles));
   }
   if (!resume)
     for (const std::string& name : unused) remove_ours(dir / name);
-  if (std::any_of(files_.begin(), files_.end(), [](const Ascii& file) { return file.in_binout; })) {
-    const auto states = resume ? resume->binout_states : std::map<std::string, std::int64_t>();
-    const bool goes_on = resume && resume->binout_bytes > 0;
-    binout_.emplace(
-        result_path(dir, result_names::binout), requests.title, states,
-        goes_on ? std::optional(static_cast<std::uintmax_t>(resume->binout_bytes)) : std::nullopt);
-  }
+  if (std::any_of(files_.begin(), files_.end(), [](const Ascii& file) { return file.numbers != nullptr; }))
+    open_binout(requests.title, date, resume);
   choose_h5_times(requests.h5);
   const auto is_gauge = [](const Ascii& file) { return file.gauge.has_value(); };
   if (!h5_schedules_.empty() || std::any_of(files_.begin(), files_.end(), is_gauge))
@@ -131,6 +128,23 @@ Histories::Histories(const std::filesystem::path& dir, HistoryRequests requests,
   const auto rows = static_cast<std::size_t>(resume->rows);
   if (h5_ && (rows > 0 || !resume->gauge_rows.empty()) && h5_->resume(rows, resume->gauge_rows) < rows)
     lost_.push_back("history.h5 has lost samples before the restart");
+}
+
+void Histories::open_binout(const std::string& title, const std::string& date,
+                            const HistoryPositions* resume) {
+  const std::filesystem::path file = result_path(dir_, result_names::binout);
+  std::optional<std::uintmax_t> bytes;
+  std::map<std::string, std::int64_t> states;
+  if (resume && resume->binout_bytes > 0) {
+    std::error_code missing;
+    const std::uintmax_t size = std::filesystem::file_size(file, missing);
+    bytes = static_cast<std::uintmax_t>(resume->binout_bytes), states = resume->binout_states;
+    if (missing || size < *bytes) {
+      lost_.push_back("binout0000 has lost its end before the restart: it starts at the restart");
+      bytes.reset(), states.clear();
+    }
+  }
+  binout_.emplace(file, title, date, std::move(states), bytes);
 }
 
 // What is due next follows from the time; whether the last sample was at this very time does not.
@@ -227,7 +241,10 @@ void Histories::write(Ascii& to, const Sample& sample) {
   else if (to.file)
     to.file->write(text);
   if (to.gauge && h5_) h5_->record_gauge(to.layout, sample.t, gauge_of(sample, *to.gauge).values);
-  if (to.in_binout) binout_->write(to.name, sample, first_potential_.value_or(0));
+  if (!to.numbers) return;
+  HistoryNumbers numbers;
+  to.numbers(sample, first_potential_.value_or(0), numbers);
+  binout_->write(to.name, sample.t, sample.cycle, numbers, to.legend);
 }
 
 // Many gauges at short intervals would else spend more time in calls of the system than in their sums.

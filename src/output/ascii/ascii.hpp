@@ -97,12 +97,14 @@ class Histories {
 
  private:
   void choose_h5_times(const OutputSchedule& wanted);
+  void open_binout(const std::string& title, const std::string& date, const HistoryPositions* resume);
 
   struct Ascii {
     OutputSchedule schedule;
     std::string name;
-    std::optional<TextFile> file;  // none: in binout alone
-    bool in_binout = false;
+    std::optional<TextFile> file;                                       // none: in binout alone
+    std::function<void(const Sample&, Real, HistoryNumbers&)> numbers;  // for binout; none: not there
+    std::vector<Legend> legend;                                         // of binout
     std::function<std::string(const Sample&, Real)> text;
     std::optional<std::size_t> gauge;
     GaugeLayout layout;

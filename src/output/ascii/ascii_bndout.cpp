@@ -31,7 +31,26 @@ std::string bndout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory bndout{{"bndout", bndout_text}};
+void bndout_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using B = BoundaryForce;
+  const std::vector<B> nodes = boundary_forces_of(s, B::Kind::driven_point),
+                       bodies = boundary_forces_of(s, B::Kind::driven_body);
+  const auto put = [&to](const std::string& folder, const std::vector<B>& forces, bool moments) {
+    HistoryRows rows(to, folder, forces, &B::id);
+    rows.integer("ids", &B::id);  // particles may leave
+    rows.vector("{}_force", &B::force).real("energy", &B::work);
+    if (moments) rows.vector("{}_moment", &B::moment);
+    B total;
+    for (const B& one : forces) total.force += one.force, total.work += one.work;
+    if (forces.empty()) return;
+    to.real("x_total", total.force.x(), folder), to.real("y_total", total.force.y(), folder);
+    to.real("z_total", total.force.z(), folder), to.real("e_total", total.work, folder);
+  };
+  put("velocity/nodes", nodes, false);
+  put("velocity/rigidbodies", bodies, true);
+}
+
+const RegisterTextHistory bndout{{"bndout", bndout_text, bndout_binout}};
 
 }  // namespace
 

@@ -84,7 +84,24 @@ std::string glstat_text(const Sample& s, Real first_potential) {
   return out;
 }
 
-const RegisterTextHistory glstat{{"glstat", glstat_text}};
+void glstat_binout(const Sample& s, Real first_potential, HistoryNumbers& to) {
+  const GlstatNumbers g = glstat_numbers(s, first_potential);
+  to.real("time_step", s.dt);
+  to.real("kinetic_energy", g.kinetic), to.real("internal_energy", g.internal);
+  to.real("hourglass_energy", g.hourglass), to.real("stonewall_energy", g.stonewall);
+  to.real("rigid_body_stopper_energy", 0), to.real("spring_and_damper_energy", g.discrete);
+  to.real("system_damping_energy", 0), to.real("sliding_interface_energy", g.sliding);
+  to.real("external_work", g.external_work), to.real("eroded_kinetic_energy", 0);
+  to.real("eroded_internal_energy", g.eroded_internal);
+  to.real("eroded_hourglass_energy", g.eroded_hourglass);
+  to.real("total_energy", g.total), to.real("energy_ratio", g.ratio);
+  to.real("energy_ratio_wo_eroded", g.ratio_without_eroded);
+  to.real("global_x_velocity", s.velocity.x()), to.real("global_y_velocity", s.velocity.y());
+  to.real("global_z_velocity", s.velocity.z());
+  to.real("added_mass", g.added_mass);
+}
+
+const RegisterTextHistory glstat{{"glstat", glstat_text, glstat_binout}};
 
 }  // namespace
 

@@ -23,8 +23,22 @@ std::string matsum_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory matsum{
-    {"matsum", matsum_text, [](const HistoryTitles& titles) { return ascii_legend(titles.parts); }}};
+void matsum_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using P = PartSample;
+  HistoryRows(to, "", s.parts, &P::id)
+      .real("internal_energy", &P::internal)
+      .real("kinetic_energy", &P::kinetic)
+      .real("eroded_internal_energy", &P::eroded_internal)
+      .real("eroded_kinetic_energy", [](const P&) { return 0.0; })
+      .real("eroded_hourglass_energy", &P::eroded_hourglass)
+      .real("hourglass_energy", &P::hourglass)
+      .vector("{}_momentum", &P::momentum)
+      .vector("{}_rbvelocity", &P::rigid_velocity)
+      .real("mass", &P::mass)
+      .real("added_mass", &P::added_mass);
+}
+
+const RegisterTextHistory matsum{{"matsum", matsum_text, matsum_binout, &HistoryTitles::parts}};
 
 }  // namespace
 

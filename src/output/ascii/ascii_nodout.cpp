@@ -37,9 +37,17 @@ std::string nodout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory nodout{{"nodout", nodout_text, [](const HistoryTitles& titles) {
-                                    return titles.nodes.empty() ? std::string() : ascii_legend(titles.nodes);
-                                  }}};
+void nodout_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using N = NodeSample;
+  HistoryRows rows(to, "", s.nodes, &N::id);
+  rows.vector("{}_displacement", &N::displacement).vector("{}_velocity", &N::v);
+  rows.vector("{}_acceleration", &N::a).vector("{}_coordinate", &N::x);
+  if (std::none_of(s.nodes.begin(), s.nodes.end(), [](const N& n) { return n.turns; })) return;
+  rows.vector("r{}_displacement", &N::rotation).vector("r{}_velocity", &N::omega);
+  rows.vector("r{}_acceleration", &N::angular_a);
+}
+
+const RegisterTextHistory nodout{{"nodout", nodout_text, nodout_binout, &HistoryTitles::nodes, false}};
 
 }  // namespace
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <fmt/printf.h>
 
 #include "output/ascii/text_history.hpp"
@@ -37,7 +38,18 @@ std::string rbdout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory rbdout{{"rbdout", rbdout_text}};
+void rbdout_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using M = RigidBodyMotion;
+  HistoryRows rows(to, "", s.body_motions, &M::part);
+  rows.vector("global_{}", &M::x).vector("global_d{}", &M::displacement);
+  rows.vector("global_rd{}", &M::rotation).vector("global_v{}", &M::v).vector("global_rv{}", &M::omega);
+  rows.vector("global_a{}", &M::a).vector("global_ra{}", &M::angular_a);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      rows.real(fmt::format("dircos_{}{}", i + 1, j + 1), [i, j](const M& b) { return b.axes(i, j); });
+}
+
+const RegisterTextHistory rbdout{{"rbdout", rbdout_text, rbdout_binout}};
 
 }  // namespace
 

@@ -21,8 +21,24 @@ std::string rcforc_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory rcforc{
-    {"rcforc", rcforc_text, [](const HistoryTitles& titles) { return ascii_legend(titles.contacts); }}};
+void rcforc_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  struct Side {
+    Id id;
+    int side;  ///< 0 SURFA, 1 SURFB
+    Vec force;
+  };
+  std::vector<Side> sides;
+  for (const InterfaceForce& i : s.interfaces) {
+    sides.push_back({i.id, 0, i.on_surfa});
+    sides.push_back({i.id, 1, -i.on_surfa});
+  }
+  HistoryRows(to, "", sides, &Side::id)
+      .fixed("side", &Side::side)
+      .vector("{}_force", &Side::force)
+      .real("mass", [](const Side&) { return 0.0; });
+}
+
+const RegisterTextHistory rcforc{{"rcforc", rcforc_text, rcforc_binout, &HistoryTitles::contacts}};
 
 }  // namespace
 

@@ -15,8 +15,14 @@ std::string rwforc_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory rwforc{
-    {"rwforc", rwforc_text, [](const HistoryTitles& titles) { return ascii_legend(titles.rigid_walls); }}};
+void rwforc_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using W = RigidWallForce;
+  HistoryRows(to, "forces", s.rigid_walls, &W::id)
+      .real("normal_force", &W::normal)
+      .vector("{}_force", &W::force);
+}
+
+const RegisterTextHistory rwforc{{"rwforc", rwforc_text, rwforc_binout, &HistoryTitles::rigid_walls}};
 
 }  // namespace
 

@@ -24,7 +24,21 @@ std::string sleout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory sleout{{"sleout", sleout_text}};
+void sleout_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using I = InterfaceForce;
+  const auto energy = [](const I& i) { return i.energy_stored + i.energy_damping + i.energy_friction; };
+  Real total = 0, friction = 0;
+  for (const I& i : s.interfaces) total += energy(i), friction += i.energy_friction;
+  HistoryRows(to, "", s.interfaces, &I::id)
+      .fixed("single_sided", [](const I&) { return 0; })
+      .real("slave", energy)
+      .real("master", [](const I&) { return 0.0; })
+      .real("friction_energy", &I::energy_friction);
+  to.real("total_slave", total), to.real("total_master", 0), to.real("total_energy", total);
+  to.real("total_friction", friction);
+}
+
+const RegisterTextHistory sleout{{"sleout", sleout_text, sleout_binout}};
 
 }  // namespace
 

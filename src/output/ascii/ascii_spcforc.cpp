@@ -29,7 +29,21 @@ std::string spcforc_text(const Sample& s, Real /*first_potential*/) {
                             total.z());
 }
 
-const RegisterTextHistory spcforc{{"spcforc", spcforc_text}};
+void spcforc_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using B = BoundaryForce;
+  const std::vector<B> forces = boundary_forces_of(s, B::Kind::held_point),
+                       moments = boundary_forces_of(s, B::Kind::held_rotation);
+  HistoryRows(to, "", forces, &B::id)
+      .fixed("force_ids", &B::id)
+      .integer("ids", &B::id)  // particles may leave
+      .vector("{}_force", &B::force);
+  HistoryRows(to, "", moments, &B::id, "", "moment_ids").vector("{}_moment", &B::moment);
+  Vec sum = Vec::Zero();
+  for (const B& one : forces) sum += one.force;
+  to.real("x_resultant", sum.x()), to.real("y_resultant", sum.y()), to.real("z_resultant", sum.z());
+}
+
+const RegisterTextHistory spcforc{{"spcforc", spcforc_text, spcforc_binout}};
 
 }  // namespace
 

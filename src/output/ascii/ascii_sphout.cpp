@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <fmt/printf.h>
 
 #include <cmath>
@@ -44,7 +45,18 @@ std::string sphout_text(const Sample& s, Real /*first_potential*/) {
   return out;
 }
 
-const RegisterTextHistory sphout{{"sphout", sphout_text}};
+void sphout_binout(const Sample& s, Real /*first_potential*/, HistoryNumbers& to) {
+  using P = ParticleSample;
+  constexpr const char* axes[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  HistoryRows rows(to, "", s.particles, &P::id);
+  for (std::size_t k = 0; k < 6; ++k)
+    rows.real(fmt::format("sig_{}", axes[k]), [k](const P& p) { return p.tau[k] - (k < 3 ? p.p : 0); });
+  rows.real("density", &P::rho).real("smooth", &P::h);
+  rows.real("neigh", [](const P& p) { return static_cast<Real>(p.neighbours); });
+  rows.real("act", [](const P& p) { return p.active ? 1.0 : 0.0; });
+}
+
+const RegisterTextHistory sphout{{"sphout", sphout_text, sphout_binout}};
 
 }  // namespace
 

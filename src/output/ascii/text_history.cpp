@@ -34,6 +34,12 @@ std::string history_text(const std::string& name, const Sample& sample, Real fir
   throw std::out_of_range("no history " + name);
 }
 
+std::string history_head(const TextHistory& file, const HistoryTitles& titles) {
+  if (!file.legend) return file.columns;
+  const std::vector<Legend> legend = file.legend(titles);
+  return (legend.empty() && !file.empty_legend ? "" : ascii_legend(legend)) + file.columns;
+}
+
 std::string ascii_legend(const std::vector<Legend>& entries) {
   std::string out = "\n{BEGIN LEGEND}\n Entity #        Title\n";
   for (const Legend& e : entries) out += fmt::format("{:9d}     {:<70.70}\n", e.id, e.title);

@@ -1,4 +1,4 @@
-"""python3 -m courant generate|run|check|post|report|verify ..."""
+"""python3 -m courant generate|run|check|post|report|verify|view|schema|lsp ..."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def _with_modules() -> str:
 
 def main(words: list[str]) -> int:
     """The exit code of the call."""
-    calls = ("generate", "run", "check", "post", "report", "verify")
+    calls = ("generate", "run", "check", "post", "report", "verify", "view", "schema", "lsp")
     if not words or words[0] in ("-h", "--help"):
-        print("usage: courant generate SCENE.yaml -o DECK.k\n       courant run SCENE.yaml -o DIR\n       courant post RECIPE DIR\n       courant report DIR\n       courant verify SUITE\n\n`courant post --help` tells the options of a call.")
+        print("usage: courant generate SCENE.yaml -o DECK.k\n       courant run SCENE.yaml -o DIR\n       courant post RECIPE DIR\n       courant report DIR\n       courant verify SUITE\n       courant view DIR\n       courant schema scene|recipe|suite\n       courant lsp\n\n`courant post --help` tells the options of a call.")
         return 0 if words else 1
     if words[0] not in calls:
         near = did_you_mean(words[0], calls).removeprefix("did you mean ").removesuffix("? ")
@@ -49,6 +49,12 @@ def main(words: list[str]) -> int:
         from .post.command import main as call  # type: ignore[assignment]
     elif words[0] == "report":
         from .report import main as call  # type: ignore[assignment]
+    elif words[0] == "view":
+        from .viewing import main as call  # type: ignore[assignment]
+    elif words[0] == "schema":
+        from .schema import main as call  # type: ignore[assignment]
+    elif words[0] == "lsp":
+        from .lsp.command import main as call  # type: ignore[assignment]
     else:
         from .verify.cli import main as call  # type: ignore[assignment]
     return call(words[1:])
@@ -60,7 +66,8 @@ if __name__ == "__main__":
         stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # type: ignore[union-attr]  # names of files as they are
     try:
         code = main(sys.argv[1:])
-        sys.stdout.flush()
+        if not sys.stdout.closed:  # the language server closes it
+            sys.stdout.flush()
     except KeyboardInterrupt:
         code = 128 + signal.SIGINT
     sys.exit(code)

@@ -7,6 +7,7 @@ import re
 from .ascii_kinds import AsciiFault, AsciiKey, AsciiStates, Lines, Text, ascii_kind
 
 _STRESS = tuple(f"sig-{axes}" for axes in ("xx", "yy", "zz", "xy", "yz", "zx"))
+_STRAIN = tuple(f"eps-{axes}" for axes in ("xx", "yy", "zz", "xy", "yz", "zx"))
 _OF_SOLID, _OF_SHELL = (*_STRESS, "effsg", "yield"), (*_STRESS, "plastic strain")
 _RESULTANTS = ("axial", "shear-s", "shear-t", "moment-s", "moment-t", "torsion")
 _OF_BEAM = ("sigma 11", "sigma 12", "sigma 31", "plastic eps")
@@ -36,7 +37,7 @@ class _Elout:
             self.states.begin(t)
             self.states.put(AsciiKey("cycle"), cycle)
         self.kind, self.id, self.history = "beam" if "r e s u l t a n t s" in line else "", None, "h i s t" in line
-        self.names, self.points = (_OF_SOLID, {})
+        self.names, self.points = (_STRAIN if "s t r a i n" in line else _OF_SOLID, {})
 
     def columns(self, line: str) -> bool:
         """Whether a line names the columns of what follows."""
@@ -44,7 +45,11 @@ class _Elout:
             self.kind, self.names = found[1], _OF_SOLID
         elif "materl" in line and "element" in line:
             shell = "(global)" in line or "(local)" in line
-            self.kind, self.names = ("shell", _OF_SHELL) if shell else ("solid", _OF_SOLID)
+            self.kind, self.names = ("shell", _OF_SHELL) if shell else ("solid", _STRAIN if self.names is _STRAIN else _OF_SOLID)
+        elif line.startswith(" strains "):
+            self.kind, self.names = "shell", _STRAIN
+        elif "strain" in line and "eps-xx" in line:
+            return True
         elif "ipt" not in line or "stress" not in line:
             return False
         return True
@@ -66,6 +71,8 @@ class _Elout:
             text = Text(line)
             point = text.id()
             self.put(text, _OF_BEAM, f"beam point {point}")
+        elif self.names is _STRAIN and (side := line.strip().partition(" ")[0]) in ("lower", "upper"):
+            self.put(Text(line).behind("surface"), _STRAIN, f"shell {side}")
         elif found := _POINT.match(line):
             self.point(int(found[1]), Text(line, found.end()))
 
@@ -163,6 +170,31 @@ def _deforc(lines: Lines, states: AsciiStates) -> None:
 @ascii_kind("jntforc", lambda line: line.startswith(" joint ID."))
 def _jntforc(lines: Lines, states: AsciiStates) -> None:
     _labelled(lines, states, "joint ID")
+
+
+_OF_TRACER = ("x", "y", "z", "vx", "vy", "vz", "sx", "sy", "sz", "sxy", "syz", "szx", "efp", "rho", "rvol", "active")
+
+
+@ascii_kind("trhist", lambda line: line.split() == ["efp", "rho", "rvol", "active"])
+def _trhist(lines: Lines, states: AsciiStates) -> None:
+    """The file has no ids: tracers count from 1 on."""
+    head, row, tracer = True, 0, 0
+    for line in lines:
+        if head or not line.strip():
+            head = head and line.split() != ["efp", "rho", "rvol", "active"]
+            continue
+        values = Text(line).numbers(13)
+        if len(values) == 1 and row == 0:
+            states.begin(Text(line).time(13))
+            tracer = 1
+            continue
+        if len(values) != 4 or tracer == 0:
+            raise AsciiFault("a tracer has rows of four numbers")
+        for name, value in zip(_OF_TRACER[4 * row : 4 * row + 4], values, strict=True):
+            states.put(AsciiKey(name, tracer), value)
+        row, tracer = (row + 1) % 4, tracer + (row == 3)
+    if row:
+        raise AsciiFault("the file is cut off: its last tracer lacks rows")
 
 
 _OF_WELD = ("axial", "shear", "failure", "length", "moment", "torsion")

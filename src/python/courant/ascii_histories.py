@@ -73,12 +73,17 @@ _DIMENSIONS = [
     ("swforc", "failure", "T"),
     ("swforc", "length", "L"),
     ("swforc", "torsion", _ENERGY),
+    *(("trhist", name, "-") for name in ("efp", "rvol", "active")),
+    ("trhist", "rho", "M/L3"),
+    *(("trhist", name, "L/T") for name in ("vx", "vy", "vz")),
+    *(("trhist", name, "M/LT2") for name in ("sx", "sy", "sz", "sxy", "syz", "szx")),
+    *(("trhist", name, "L") for name in "xyz"),
 ]
 # of what a name holds: dimension, and that of rotations
 _HELD = {
     "spcforc": [("moment", _ENERGY, _ENERGY), ("", _FORCE, _FORCE)],
     "sphout": [("sig-", "M/LT2", "M/LT2"), ("eps-", "-", "-")],
-    "elout": [("sig-", "M/LT2", "M/LT2")],
+    "elout": [("sig-", "M/LT2", "M/LT2"), ("eps-", "-", "-")],
     "rbdout": [
         ("coordinates", "L", "L"),
         ("displacements", "L", "-"),

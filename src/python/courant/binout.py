@@ -126,13 +126,43 @@ class BinoutFile(Mapping[str, np.ndarray]):
                 self._fixed[f"{folder.removesuffix('/metadata')[1:]}/{name}"] = values
         self._states = states
 
-    def __getitem__(self, path: str) -> np.ndarray:
-        if path in self._fixed:
-            values = self._fixed[path]
-            return values[0:1] if values.dtype.kind == "S" else values
+    def _order(self, path: str) -> list[int]:
+        """Numbers of the states of an array, by time."""
         rows = self._states[path]
         times = self._states.get(f"{path.rpartition('/')[0]}/time", {})
-        order = sorted(rows, key=lambda k: (float(times[k][0]) if k in times and len(times[k]) else 0.0, k))
+        return sorted(rows, key=lambda k: (float(times[k][0]) if k in times and len(times[k]) else 0.0, k))
+
+    def of(self, path: str, id: int) -> np.ndarray:
+        """An array of one entity, (states,); of elements with several points, as "elout/shell/sig_xx", (states, points). NaN where a state lacks it.
+        Raises KeyError."""
+        folder, rows = path.rpartition("/")[0], []
+        fixed, of_state, counts = self._fixed.get(f"{folder}/ids"), self._states.get(f"{folder}/ids", {}), self._states.get(f"{folder}/nip", {})
+        for k in self._order(path):
+            values, ids = self._states[path][k], of_state.get(k, fixed)
+            if ids is None:
+                raise KeyError(f"'{folder}' has no ids")
+            nip = counts.get(k, np.empty(0))
+            nip = nip.astype(np.int64) if len(values) != len(ids) and len(nip) == len(ids) else np.ones(len(ids), np.int64)
+            at, ends = np.flatnonzero(ids == id), np.cumsum(nip)
+            whole = len(at) > 0 and len(nip) > 0 and nip.min() >= 0 and ends[-1] <= len(values)
+            rows.append(values[ends[at[0]] - nip[at[0]] : ends[at[0]]] if whole else np.empty(0))
+        width = max(map(len, rows), default=0)
+        if width == 0:
+            raise KeyError(f"'{folder}' has no {id}")
+        out = np.array([[*row, *[np.nan] * (width - len(row))] for row in rows], dtype=float)
+        return out[:, 0] if width == 1 else out
+
+    def __getitem__(self, path: str) -> np.ndarray:
+        """Raises KeyError. Ids that are the same in all states come once."""
+        if path in self._fixed:
+            values = self._fixed[path]
+            if any(not np.array_equal(values, row) for row in self._states.get(path, {}).values()):
+                return self._matrix(path)
+            return values[0:1] if values.dtype.kind == "S" else values
+        return self._matrix(path)
+
+    def _matrix(self, path: str) -> np.ndarray:
+        rows, order = self._states[path], self._order(path)
         width = max((len(rows[k]) for k in order), default=0)
         out = np.full((len(order), width), np.nan, dtype=float)
         for row, k in enumerate(order):
@@ -140,15 +170,47 @@ class BinoutFile(Mapping[str, np.ndarray]):
         return out[:, 0] if width == 1 else out
 
     def __iter__(self) -> Iterator[str]:
-        return iter(sorted([*self._fixed, *self._states]))
+        return iter(sorted({*self._fixed, *self._states}))
 
     def __len__(self) -> int:
-        return len(self._fixed) + len(self._states)
+        return len({*self._fixed, *self._states})
 
     @property
     def histories(self) -> list[str]:
         """ "glstat", "rwforc/forces", ...: folders with states."""
         return sorted({path.rpartition("/")[0] for path in self._states})
+
+    def series(self, history: str) -> dict[str, np.ndarray]:
+        """Arrays of a history and the folders in it over time, (states,) each: "z_displacement_5", "shell_sig_xx_7_point_2". Raises KeyError."""
+        out: dict[str, np.ndarray] = {}
+        paths = [path for path in self._states if path.startswith(f"{history}/") and path.rpartition("/")[2] not in ("ids", "nip", "time")]
+        if not paths:
+            raise KeyError(f"binout has no '{history}'; it has {', '.join(self.histories)}")
+        for path in paths:
+            folder, _, name = path.rpartition("/")
+            word = "_".join([*folder.split("/")[1:], name])
+            ids = self._fixed.get(f"{folder}/ids")
+            if ids is None:
+                ids = next(iter(self._states.get(f"{folder}/ids", {}).values()), None)
+            if ids is None or all(len(row) == 1 for row in self._states[path].values()) and len(ids) != 1:
+                values = self._matrix(path)
+                out |= {word: values} if values.ndim == 1 else {f"{word}_{k + 1}": values[:, k] for k in range(values.shape[1])}
+                continue
+            for id in ids.tolist():
+                try:
+                    values = self.of(path, id)
+                except KeyError:
+                    continue
+                many = values.ndim > 1
+                out |= {f"{word}_{id}_point_{k + 1}": values[:, k] for k in range(values.shape[1])} if many else {f"{word}_{id}": values}
+        return out
+
+    def times(self, history: str) -> np.ndarray:
+        """Times of the states of a history, (states,) [T]; of the first of its folders. Raises KeyError."""
+        path = next((path for path in sorted(self._states) if path.startswith(f"{history}/") and path.endswith("/time")), "")
+        if not path:
+            raise KeyError(f"binout has no '{history}'; it has {', '.join(self.histories)}")
+        return self[path]
 
     def text(self, path: str) -> str:
         """A title or another text."""

@@ -182,6 +182,15 @@ class D3plotFile:
         return 1 + sum(abs(v) for v in self._sph[1:11])  # the eleventh, where there is one, counts history variables
 
     @property
+    def has_strain(self) -> bool:
+        """Whether solids and shells have strains: as the file says, or by the words of shells where it does not."""
+        h = self.header
+        if h["idtdt"] >= 100:
+            return h["idtdt"] // 10000 % 10 == 1
+        each = 6 * (h["ioshl1"] == 1000) + (h["ioshl2"] == 1000) + h["neips"]
+        return h["nv2d"] > 0 and h["nv2d"] - self.layers * each - 8 * (h["ioshl3"] == 1000) - 4 * (h["ioshl4"] == 1000) >= 12
+
+    @property
     def layers(self) -> int:
         """Points of shells through their thickness."""
         maxint = self.header["maxint"]
@@ -280,7 +289,11 @@ class D3plotState:
         rows = rows.reshape(len(rows), points, -1)
         rows = rows[:, 0] if points == 1 else rows
         out = {"stress": rows[..., :6], "plastic_strain": rows[..., 6]}
-        return out | ({"history": rows[..., 7 : 7 + h["neiph"]]} if h["neiph"] else {})
+        numbers = h["neiph"]
+        if self.file.has_strain and numbers >= 6:  # the last ones
+            numbers -= 6
+            out["strain"] = rows[..., 7 + numbers : 13 + numbers]
+        return out | ({"history": rows[..., 7 : 7 + numbers]} if numbers else {})
 
     def _layers(self, rows: np.ndarray) -> tuple[dict[str, np.ndarray], np.ndarray]:
         h, layers = self.file.header, self.file.layers
@@ -309,6 +322,8 @@ class D3plotState:
             out["internal_energy"] = rest[:, 3 if rest.shape[1] < 16 else 15]
             if rest.shape[1] >= 16:
                 out["strain"] = rest[:, 3:15].reshape(len(rest), 2, 6)
+        elif self.file.has_strain and rest.shape[1] >= 12:
+            out["strain"] = rest[:, :12].reshape(len(rest), 2, 6)
         return out
 
     def _of_beams(self, rows: np.ndarray) -> dict[str, np.ndarray]:

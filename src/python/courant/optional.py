@@ -17,6 +17,8 @@ _PACKAGES = {
     "vtkmodules": "python3-vtk9",
     "meshio": "pip install meshio",
     "gmsh": "pip install gmsh",
+    "pygls": "pip install pygls",
+    "lsprotocol": "pip install pygls",
 }
 
 

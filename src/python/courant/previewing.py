@@ -24,9 +24,9 @@ def preview_of(deck: str | PathLike[str], name: str, file: str | PathLike[str] |
     from .files import OutputError
 
     if file is not None:
-        _check_ending(Path(file))
+        check_ending(Path(file))
     with tempfile.TemporaryDirectory(prefix="courant_") as folder:
-        first = _first_state(deck, name, Path(folder))
+        first = first_state(deck, name, Path(folder))
         try:
             return first.plot(field, None if file is None else Path(file), **keys)
         except KeyError as fault:  # UnknownField, too, whose message has the file of the results
@@ -42,7 +42,7 @@ def _fault(name: str, message: str, hint: str = "") -> CourantError:
     return CourantError(diagnostics)
 
 
-def _check_ending(file: Path) -> None:
+def check_ending(file: Path) -> None:
     from .optional import module
 
     known = sorted(module("matplotlib.backend_bases").FigureCanvasBase.get_supported_filetypes())
@@ -50,7 +50,7 @@ def _check_ending(file: Path) -> None:
         raise _fault(fspath(file), f"preview: pictures cannot end with '{file.suffix}'", f"endings: {', '.join(known)}")
 
 
-def _first_state(deck: str | PathLike[str], name: str, folder: Path) -> Any:
+def first_state(deck: str | PathLike[str], name: str, folder: Path) -> Any:
     from .deck import Deck
     from .running import run
 

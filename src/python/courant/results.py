@@ -297,7 +297,8 @@ class Histories(Mapping[str, np.ndarray]):
         columns = [("t", self._units.of(Dimension(T=1)), self._file.times_of(group))]
         for path in paths:
             name, values = path.rpartition("/")[2], self[path]
-            parts = [(name, values)] if values.ndim == 1 else [(f"{name}.{axis}", values[:, a]) for a, axis in enumerate("xyz")]
+            axes = "xyz" if values.ndim == 1 or values.shape[1] == 3 else ("xx", "yy", "zz", "xy", "yz", "zx")
+            parts = [(name, values)] if values.ndim == 1 else [(f"{name}.{axis}", values[:, a]) for a, axis in enumerate(axes)]
             columns += [(part, self.unit(path), one) for part, one in parts if name != "time"]
         return table_of(group, columns)
 
@@ -451,12 +452,19 @@ class Results:
         return self.histories.table(groups[nearest])
 
     def table(self, name: str) -> Table:
-        """ "energies", a group of history.h5 ("contacts/1"), the name of a gauge, or an ASCII history ("glstat")."""
+        """ "energies", a group of history.h5 ("contacts/1"), the name of a gauge, or a history ("glstat"): its text, else what binout has of it."""
         if name == "energies":
             return self.energies
         if name not in ASCII_NAMES and name not in self.histories.groups and f"gauges/{name}" in self.histories.groups:
             return self.gauges[name]
-        return self.ascii[name] if name in ASCII_NAMES else self.histories.table(name)
+        if name not in ASCII_NAMES:
+            return self.histories.table(name)
+        return self.ascii[name] if name in list(self.ascii) or not binout_files(self.folder) else self.binout_table(name)
+
+    def binout_table(self, name: str) -> Table:
+        """A history of binout over time; columns are named as binout and the ids have them: z_displacement_5. Raises KeyError."""
+        series = [(key, self.units.of_text("?"), values) for key, values in self.binout.series(name).items()]
+        return table_of(name, [("t", self.units.of(Dimension(T=1)), self.binout.times(name)), *series])
 
     def plot(
         self, what: str = "energies", *names: str, field: str | None = None, t: float | None = None, file: str | Path | None = None, **keys: Any

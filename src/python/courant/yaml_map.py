@@ -13,12 +13,14 @@ import yaml
 
 from .diagnostics import Diagnostics, Location
 from .files import note_input
+from .key_tables import keys as keys_of_map
 from .words import did_you_mean, shortest
 
 Node = yaml.Node
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NUMBER = re.compile(r"\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*")
 _DEEPEST = 200  # maps and lists in each other: keeps hostile input from exhausting the stack
+_STEPS = keys_of_map("steps", "from number!, to number!, step number!")
 _TRUE, _FALSE = {"y", "yes", "true", "on"}, {"n", "no", "false", "off"}
 
 
@@ -260,7 +262,7 @@ class YamlMap:
 
     def steps(self, most: float = 1e5) -> List[float]:
         """The places of this map: {from, to, step}."""
-        self.allow("from", "to", "step")
+        self.allow(*_STEPS)
         start, end = self.number("from", required=True), self.number("to", required=True)
         step = self.positive("step", required=True)
         if not step > 0:

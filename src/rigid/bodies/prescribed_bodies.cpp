@@ -74,8 +74,9 @@ Vec driven_momentum(const RigidBody& b, Vec L, const Clock& clock) {
     if (it == most - 1 && !(lacks.norm() <= 1e-9 * fastest))
       throw RunError(
           fmt::format("{} does not follow its prescribed rotation at time {:.6g}: it turns by {:.3g} in a "
-                      "step of {:.3g}; take a shorter step (DT2MS, LCTM or TSSFAC of *CONTROL_TIMESTEP)",
-                      b.name, clock.t, fastest * clock.dt, clock.dt));
+                      "step of {:.3g}",
+                      b.name, clock.t, fastest * clock.dt, clock.dt),
+          "take a shorter step (DT2MS, LCTM or TSSFAC of *CONTROL_TIMESTEP)");
     L += drives_for(axes, pushed, turns.count, lacks, b, middle);
   }
   return L;

@@ -85,8 +85,9 @@ void JointStiffnesses::strike(World&, const Clock& clock) {
       if (k != 1 && std::abs(now.cosine) < level && (moment != 0 || damping != 0))
         throw RunError(
             fmt::format("t = {:g}: joint stiffness {}: at THETA = 90 degrees its other two angles are "
-                        "not defined: choose other axes",
-                        clock.t, joint.id));
+                        "not defined",
+                        clock.t, joint.id),
+            "choose other axes");
       if (moment != 0) moment_[j] += moment * now.axis[k];
       if (damping != 0) damping_[j] += damping * now.axis[k];
     }

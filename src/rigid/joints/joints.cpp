@@ -253,12 +253,15 @@ void Joints::look_at_gaps(const std::vector<JointRow>& rows, const std::vector<R
       const bool gives_way = gap > too_far_[i] && !exact_ && !spring && can_yield(joints_[j]);
       if (gives_way) soften(j);
       if (!(gap <= too_far_[i]) && !gives_way)
-        throw RunError(fmt::format(
-            "t = {:g}: {} joint {} between parts {} and {} cannot be held: what drives or holds its bodies, "
-            "other joints or a step of {:.3g} that is too long for their motion do not let it: it is open by "
-            "{:.3g} {}",
-            clock.t, joint_name(joints_[j].kind), joints_[j].id, a.part, b.part, clock.dt, gap,
-            rows[i].is_length() ? "[L]" : "radians"));
+        throw RunError(
+            fmt::format(
+                "t = {:g}: {} joint {} between parts {} and {} cannot be held: it is open by {:.3g} {}",
+                clock.t, joint_name(joints_[j].kind), joints_[j].id, a.part, b.part, gap,
+                rows[i].is_length() ? "[L]" : "radians"),
+            fmt::format(
+                "see whether other joints, prescribed motions and held directions of its bodies allow its "
+                "motion, or take a step shorter than {:.3g} (TSSFAC of *CONTROL_TIMESTEP)",
+                clock.dt));
       if (gap <= room_[i]) continue;
       const auto note = [&](const char* name, Real value) {
         Real& most = world.maxima[name];

@@ -62,7 +62,8 @@ class FrozenOutlets : public Refresh {
       throw RunError(
           fmt::format("*COURANT_FROZEN_OUTLET: the equation of state of part {} has no density with "
                       "the pressure {:g} below the level",
-                      world.part_ids[static_cast<std::size_t>(p.part[i])], m.ro * head));
+                      world.part_ids[static_cast<std::size_t>(p.part[i])], m.ro * head),
+          "check the level and its units");
     p.rho[i] = m.ro * (1 + *mu);
     p.p[i] = m.ro * head;
   }

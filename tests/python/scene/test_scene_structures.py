@@ -66,6 +66,37 @@ def test_elements_of_other_programs_are_turned_the_right_side_out(cells: dict[st
     assert abs(np.einsum("ij,ij->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6 - volume) < 1e-12
 
 
+STEEL = {"material": "steel", "fix": "bottom"}
+
+
+def test_parts_that_begin_in_each_other_are_refused() -> None:
+    post: dict[str, Any] = {"box": {"low": (1, 0), "high": (1.1, 0.3)}, "title": "post", **STEEL}
+    beside: dict[str, Any] = {"box": {"low": (1.1, 0), "high": (1.2, 0.2)}, "title": "beside", **STEEL}
+    tank().structure(**post).structure(**beside).wall(box={"low": (0.8, 0), "high": (1.0, 0.2)}).deck()  # these touch
+    inside: dict[str, Any] = {"box": {"low": (1.05, 0.05), "high": (1.2, 0.2)}}
+    assert "'inside' and 'post' overlap" in message(tank().structure(**post).structure(**inside, title="inside", material="steel"))
+    assert "'post' and 'box' overlap" in message(tank().structure(**post).wall(**inside))
+    assert "'post' and 'block' overlap" in message(tank().structure(**post).body(**inside, density=500, title="block"))
+    # a corner of the other is in it, none of its nodes in the other
+    assert "'post' and 'spike' overlap: a point of one" in message(tank().structure(**post, size=0.1).body([(1.05, 0.25), (1.2, 0.1), (1.2, 0.28)], density=500, title="spike"))
+    assert "'shelf' and 'post' overlap" in message(tank().structure(**post).structure(line=[(1.05, 0.1), (1.3, 0.1)], thickness=0.01, material="steel", title="shelf"))
+
+
+def test_nodes_that_are_held_may_be_in_a_wall() -> None:
+    tank().wall(box={"low": (0.9, 0), "high": (1.2, 0.1)}).structure(box={"low": (1, 0.05), "high": (1.1, 0.4)}, material="steel", fix="y <= 0.11").deck()
+
+
+def test_parts_do_not_reach_through_walls_of_the_box() -> None:
+    assert "through a wall of the box from 0 to 2" in message(tank().structure(box={"low": (1.8, 0.1), "high": (2.1, 0.2)}, material="steel", title="beam"))
+    tank().structure(box={"low": (1.8, 0.5), "high": (2.0, 1.5)}, material="steel").deck()  # out of the open top
+
+
+def test_overlaps_in_space() -> None:
+    post: dict[str, Any] = {"box": {"low": (0.5, 0.4, 0), "high": (0.6, 0.6, 0.4)}, "size": 0.05, "title": "post", **STEEL}
+    assert "'post' and 'ball' overlap" in message(space().structure(**post).body(sphere={"centre": (0.7, 0.5, 0.3), "radius": 0.12}, density=500, title="ball"))
+    space().structure(**post).body(sphere={"centre": (0.8, 0.5, 0.3), "radius": 0.12}, density=500).deck()
+
+
 def test_elements_with_nodes_on_their_sides_are_refused_by_name() -> None:
     mixed = _Cells(CUBE, tetra=[[0, 1, 2, 4]], tetra10=[[0, 1, 2, 4, 3, 3, 3, 3, 3, 3]])
     assert meshes.of_meshio(mixed) is None and meshes.of_meshio(_Cells(CUBE, line=[[0, 1]])) is None

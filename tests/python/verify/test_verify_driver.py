@@ -229,4 +229,39 @@ def test_settings_add_cards_to_decks_of_scenes(call: Caller) -> None:
     assert call.runs() == 3, "other cards are another deck"
     call.write("cases: [{name: a, deck: deck.k, settings: [{name: b, keywords: '*CARD'}]}]")
     (call.folder / "deck.k").write_text("*END\n")
-    assert "'keywords' belong to a case with a 'scene'" in call(code=1)
+    assert "'keywords' belong to a case with a 'scene' or 'build'" in call(code=1)
+
+
+BUILDER = '''
+def deck(n=10, how=0, seconds=0.5, word="a"):
+    """As the scene of the other tests makes it."""
+    return f"*KEYWORD\\nn={n}\\nhow={how}\\nseconds={seconds}\\nword={word}\\n*END\\n"
+def wrong(n=10):
+    return 1 / 0
+def bare(n):
+    return ""
+'''
+
+
+def test_decks_are_built_by_functions(call: Caller) -> None:
+    (call.folder / "decks.py").write_text(BUILDER)
+    call.write(SUITE.replace("scene: scene.yaml", "build: decks.py:deck").replace("{how: MORE}", "{how: 2 * 0.5, word: b}"))
+    call()
+    assert call.runs() == 6
+    decks = [path.read_text() for path in sorted(call.folder.glob("suite_verify/runs/growth/*-20/deck.k"))]
+    assert sorted(("word=a" in deck, "n=20" in deck) for deck in decks) == [(False, True), (True, True)]
+    call()
+    assert call.runs() == 0, "the same decks"
+    (call.folder / "decks.py").write_text(BUILDER.replace("word={word}", "other={word}"))
+    call()
+    assert call.runs() == 6, "the function makes other decks"
+
+
+@pytest.mark.parametrize(("build", "what"), [("none.py:deck", "a file that is there"), ("decks.py", "expected FILE.py:FUNCTION"), ("decks.py:none", "has no function 'none'"),
+                                             ("decks.py:wrong", "wrong: ZeroDivisionError"), ("decks.py:bare", "'n' of bare has no default"),
+                                             ("decks.py:deck", "deck has no parameter 'm': it has n, how")])
+def test_builders_that_cannot_be_called_are_named(call: Caller, build: str, what: str) -> None:
+    (call.folder / "decks.py").write_text(BUILDER)
+    more = ", parameters: {m: 1}" if "no parameter" in what else ""
+    call.write(f"cases: [{{name: a, build: '{build}'{more}, observations: [{{name: b, of: global/kinetic, take: final}}]}}]")
+    assert what in call(code=1) and call.runs() == 0

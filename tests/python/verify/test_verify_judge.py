@@ -164,10 +164,10 @@ def test_how_a_run_ended(tmp_path: Path, record: dict, files: dict[str, str], ve
 def test_numbers_of_a_summary(tmp_path: Path) -> None:
     (tmp_path / "summary.yaml").write_text(
         "termination: normal\nsteps: 5\nleaked_particles: 2\nmax_penetration: 1e-3\n"
-        "energy: {total: 1.5, ratio: 1, residual: -0.5, throughput: 2}\n"
+        "energy: {total: 1.5, ratio: 1, residual: -0.5, error: -0.125, throughput: 2}\n"
     )
     numbers = result_of_run(tmp_path, RunRecord("k")).numbers
-    assert numbers == RunNumbers(residual=0.25, ratio=1, leaked=2, penetration=1e-3, steps=5)
+    assert numbers == RunNumbers(residual=0.25, error=0.125, ratio=1, leaked=2, penetration=1e-3, steps=5)
 
 
 def test_records_are_kept_whole(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ namespace {
 /// A sound scene; each test changes what its cause changes.
 StopFacts sound() {
   StopFacts f;
+  f.cause = StopCause::energy;
   f.cycle = 5000;
   f.dt_set_by = "sph 17 of part 1";
   f.has_contact = true;
@@ -31,17 +32,27 @@ TEST(Advice, WithoutACauseTheStepSize) {
   expect_hint(sound(), "lower TSSFAC of *CONTROL_TIMESTEP (now 0.9)");
 }
 
-TEST(Advice, DirectionsThatFollowNodesAreNamed) {
+TEST(Advice, AnErrorThatSaysItAllHasItsOwnHint) {
   StopFacts f = sound();
-  f.cause = StopCause::direction;
-  expect_hint(f, "name two nodes whose line stays along the wall");
+  f.cause = StopCause::other, f.tssfac = 1.3, f.start_speed = 1000;
+  EXPECT_EQ(advice(f), "");
+  f.hint = "take a shorter curve";
+  EXPECT_EQ(advice(f), f.hint);
 }
 
-TEST(Advice, TooMuchAddedMassIsNoMatterOfSpeeds) {
+TEST(Advice, HintsOfErrorsComeBehindFaultsOfTheDeck) {
   StopFacts f = sound();
-  f.cause = StopCause::added_mass, f.dt_set_by = "solid 3 of part 2";
-  expect_hint(f, "lower |DT2MS| of *CONTROL_TIMESTEP");
-  EXPECT_EQ(advice(f).find("MAXV"), std::string::npos);
+  f.cause = StopCause::element, f.hint = "take more elements", f.leaked = 12;
+  EXPECT_EQ(advice(f), f.hint);
+  f.start_speed = 1000;
+  expect_hint(f, "check the units");
+}
+
+TEST(Advice, WithoutParticlesNoViscosityOfTheirs) {
+  StopFacts f = sound();
+  f.particles = false;
+  expect_hint(f, "make contact softer");
+  EXPECT_EQ(advice(f).find("*HOURGLASS"), std::string::npos);
 }
 
 TEST(Advice, StepsLongerThanStable) {

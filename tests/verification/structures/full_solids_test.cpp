@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "base/run_error.hpp"
 #include "same_bits.hpp"
 #include "solid_decks.hpp"
 #include "state/reports.hpp"
@@ -252,5 +253,28 @@ TEST(FullSolids, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
     deck.cards = full_part(material);
     deck.cards += "*INITIAL_VELOCITY\n0\n-2.0,0.5,-3.0\n*RIGIDWALL_PLANAR\n0\n-0.01,0.0,0.0,1.0,0.0,0.0\n";
     expect_same_bits(deck.text(1), 150, 25);
+  }
+}
+
+// A corner is pushed in so far that the determinant is below 0 at the point beside it, det 1/8 (1 + 2 d.grad
+// N), though the volume of the element, 1 + d.(1, 1, 1)/4, is not.
+TEST(FullSolids, StopWhereAPointIsInsideOut) {
+  for (const Real pushed : {0.4, 0.9}) {  // at 0.536 the determinant is 0
+    SolidDeck deck;
+    deck.block(Vec(1, 1, 1), 1, 1, 1, 1,
+               [&](const Vec& x) { return x.isApprox(Vec::Ones()) ? Vec(x - pushed * Vec::Ones()) : x; });
+    deck.cards = full_part("MAT_ELASTIC\n1,1.0,2.5,0.25");
+    auto s = simulation_of(deck.text(1));
+    if (pushed < 0.5) {
+      EXPECT_NO_THROW(s->step(do_nothing));
+      continue;
+    }
+    try {
+      for (int k = 0; k < 2; ++k) s->step(do_nothing);
+      ADD_FAILURE() << "runs on";
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find("turned inside out"), std::string::npos) << error.what();
+      EXPECT_NE(error.hint, "");
+    }
   }
 }

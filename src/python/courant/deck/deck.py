@@ -30,6 +30,34 @@ _I10 = re.compile(r"i10\s*=\s*y", re.IGNORECASE)
 _COLUMNS = 78  # of a line that names a folder
 
 
+def split_deck(text: str, file: str, first_line: int = 1) -> tuple[str, list[Block]]:
+    """What is in front of the first keyword, and the blocks."""
+    head: list[str] = []
+    found: list[tuple[str, int, list[str]]] = []
+    for number, line in enumerate(text.splitlines(keepends=True) if "\r" not in text else re.findall(r"[^\n]*\n|[^\n]+", text), first_line):
+        if line.startswith("*"):
+            found.append((line[1:].split("$")[0].strip(), number, [line]))
+        elif found:
+            found[-1][2].append(line)
+        else:
+            head.append(line)
+    usual = 0
+    for name, _, _ in found:
+        if name.upper().startswith("KEYWORD"):
+            long = _LONG.search(name)
+            usual = 20 if long and long[1].upper() == "Y" else 10 if _I10.search(name) else usual
+    return "".join(head), [_block(name, lines, file, number, usual) for name, number, lines in found]
+
+
+def _block(name: str, lines: list[str], file: str, number: int, usual: int) -> Block:
+    word = name.split()[0] if name.split() else ""
+    mark = name.split()[-1] if len(name.split()) > 1 else ""
+    if word and word[-1] in "+-%":
+        word, mark = word[:-1], word[-1]
+    wide = {"+": 20, "%": 10, "-": 0}.get(mark, usual)
+    return Block(word.upper(), lines, file, number, wide)
+
+
 class Found(list[Block]):
     """Blocks of one keyword. `deck["MAT_ELASTIC"]["E"]` is a field of the only one."""
 
@@ -74,30 +102,7 @@ class Deck:
         return CourantError(diagnostics)
 
     def _split(self, text: str, first_line: int = 1) -> tuple[str, list[Block]]:
-        """What is in front of the first keyword, and the blocks."""
-        head: list[str] = []
-        found: list[tuple[str, int, list[str]]] = []
-        for number, line in enumerate(text.splitlines(keepends=True) if "\r" not in text else re.findall(r"[^\n]*\n|[^\n]+", text), first_line):
-            if line.startswith("*"):
-                found.append((line[1:].split("$")[0].strip(), number, [line]))
-            elif found:
-                found[-1][2].append(line)
-            else:
-                head.append(line)
-        usual = 0
-        for name, _, _ in found:
-            if name.upper().startswith("KEYWORD"):
-                long = _LONG.search(name)
-                usual = 20 if long and long[1].upper() == "Y" else 10 if _I10.search(name) else usual
-        return "".join(head), [self._block(name, lines, number, usual) for name, number, lines in found]
-
-    def _block(self, name: str, lines: list[str], number: int, usual: int) -> Block:
-        word = name.split()[0] if name.split() else ""
-        mark = name.split()[-1] if len(name.split()) > 1 else ""
-        if word and word[-1] in "+-%":
-            word, mark = word[:-1], word[-1]
-        wide = {"+": 20, "%": 10, "-": 0}.get(mark, usual)
-        return Block(word.upper(), lines, fspath(self.path), number, wide)
+        return split_deck(text, fspath(self.path), first_line)
 
     # keywords
 

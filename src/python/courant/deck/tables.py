@@ -1,15 +1,13 @@
-"""The cards of keywords as the program knows them: `courant keywords --markdown`."""
+"""The cards of keywords as the program knows them: `courant keywords --json`."""
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 from dataclasses import dataclass, field
 from functools import lru_cache
 
 from ..program import executable
-
-_ROW = re.compile(r"\| (\S+) \| (\d+)-(\d+) \| ([AIF])([^|]*)\| ([^|]*) \|")
-_OPTION = re.compile(r"Option _([A-Z]+):")
 
 
 @dataclass(frozen=True)
@@ -19,6 +17,12 @@ class FieldOf:
     end: int
     kind: str  # A, I or F
     listed: bool  # many values in these columns
+    meaning: str = ""
+    dimension: str = ""  # in M, L, T
+    default: str = ""
+    accepted: str = ""
+    refers: str = ""  # what its ids number: "curve"; "varies": other fields decide; "": no ids
+    allowed: tuple[int, ...] = ()  # the only values, where there are few
 
 
 @dataclass
@@ -35,6 +39,11 @@ class TableOf:
     cards: list[CardOf] = field(default_factory=list)
     options: list[str] = field(default_factory=list)  # TITLE, ID: a line that comes first
     heading: bool = False  # before each set of cards
+    many: bool = True  # a block may have several sets of cards
+    purpose: str = ""
+    state: str = ""  # "honoured", "partly", "no effect", "refused"
+    support: str = ""  # that in full
+    defines: str = ""  # what its ids number: "part"; "": nothing
 
 
 @lru_cache(maxsize=None)
@@ -43,32 +52,26 @@ def tables() -> dict[str, TableOf]:
     program = executable()
     if not program:
         return {}
-    said = subprocess.run([program, "keywords", "--markdown"], capture_output=True, text=True, errors="replace")
+    said = subprocess.run([program, "keywords", "--json"], capture_output=True, text=True, errors="replace")
     return parse(said.stdout) if said.returncode == 0 else {}
 
 
 def parse(text: str) -> dict[str, TableOf]:
     out: dict[str, TableOf] = {}
-    table: TableOf | None = None
-    for line in text.splitlines():
-        if line.startswith("## *"):
-            table = TableOf([line[4:].strip()])
-        elif table is None:
-            continue
-        elif line.startswith("Also: "):
-            table.names += re.findall(r"`\*([^`]+)`", line.partition("`. ")[0] + "`")
-        elif line.startswith("Option _") or "a heading line" in line:
-            table.options += _OPTION.findall(line)
-            table.heading |= line.startswith("Each set begins with a heading line")
-        elif match := re.fullmatch(r"Card \d+(.*)", line):
-            how = match[1]
-            table.cards.append(CardOf(optional="optional" in how, conditional="only where" in how, repeated="repeated" in how))
-        elif (match := _ROW.match(line)) and table.cards:
-            name = match[1].replace("\\", "")
-            table.cards[-1].fields.append(FieldOf(name, int(match[2]) - 1, int(match[3]), match[4], "list" in match[5] or "column" in match[5]))
-        if table is not None:
-            out |= {name: table for name in table.names if name not in out}
+    for one in json.loads(text):
+        keys = ("names", "options", "heading", "many", "purpose", "state", "support", "defines")
+        table = TableOf(cards=[_card(card) for card in one["cards"]], **{key: one[key] for key in keys})
+        out |= {name: table for name in table.names if name not in out}
     return out
+
+
+def _card(card: dict) -> CardOf:
+    fields = [
+        FieldOf(f["name"], f["column"], f["column"] + f["width"], f["type"], f["list"], f["meaning"], f["dimension"], f["default"], f["accepted"],
+                f["refers"], tuple(f["allowed"]))
+        for f in card["fields"]
+    ]
+    return CardOf(fields, card["optional"], card["conditional"], card["repeated"])
 
 
 def without_options(keyword: str) -> tuple[str, list[str]]:

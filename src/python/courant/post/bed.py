@@ -9,10 +9,13 @@ import numpy as np
 from ..diagnostics import Diagnostics, Location
 from ..expressions import Formula
 from ..fields import StateFiles, open_field, read_walls
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import YamlMap, is_list, is_map
 from .state import read_expression
 
 _HINT = "for example 0.032, 0.1 * x, [[-1, 0.032], [0, 0.032], [0, 0], [2, 0]] or {parts: [11]}"
+
+_BED = keys_of_map("bed", "parts list!")
 
 
 @dataclass
@@ -33,7 +36,7 @@ class Bed:
             return cls(Formula("0", ("x",)))
         if is_map(node):
             entry = keys.element(node, f"{keys.name}.{key}")
-            entry.allow("parts")
+            entry.allow(*_BED)
             parts = [int(one) for one in entry.numbers("parts", required=True)]
             return cls(parts=parts, where=keys.where(node))
         if not is_list(node):

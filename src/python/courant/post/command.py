@@ -1,4 +1,4 @@
-"""The call `courant post RECIPE DIR`."""
+"""The call `courant post RECIPE DIR`; without a recipe it writes the page of `courant report`."""
 
 from __future__ import annotations
 
@@ -29,14 +29,16 @@ def view_of(field: str, folder: Path, diagnostics: Diagnostics) -> bool:
 def main(words: Sequence[str]) -> int:
     """The exit code: 0, 1 where recipe or folder have faults, 2 where results could not be written."""
     parser = Parser("courant post", allow_abbrev=False, description="tables, CSV and pictures from the results of a run")
-    parser.add_argument("recipe", metavar="RECIPE", nargs="?", help="recipe.yaml")
+    parser.add_argument("recipe", metavar="RECIPE", nargs="?", help="recipe.yaml; without one, and without --view, DIR/report.html is written")
     parser.add_argument("folder", metavar="DIR", help="folder of the run")
     parser.add_argument("--view", metavar="FIELD", help="a picture of the last state by a field, with or without a recipe")
     parser.add_argument("--threads", type=count, default=0, metavar="N", help="processes at once; 0: all cores")
     parser.add_argument("--load", action="append", default=[], metavar="FILE.py", help="analyses and charts of your own")
     call = parser.parse_args(list(words))
     if not call.recipe and not call.view:
-        parser.error("a RECIPE or --view FIELD is needed")
+        from ..report import main as report
+
+        return report([call.folder])
     diagnostics = Diagnostics()
     try:
         for file in call.load:

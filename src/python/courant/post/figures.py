@@ -23,6 +23,7 @@ import numpy as np
 
 from ..diagnostics import Diagnostics, Location
 from ..expressions import Formula
+from ..key_tables import keys as keys_of_map
 from ..registry import Registry
 from ..words import did_you_mean
 from ..yaml_map import Node, YamlMap, as_number, is_list, is_map, key, keys_of, scalar_text
@@ -32,7 +33,8 @@ from .tables import Image, Table
 STYLES = ("line", "dashed", "points", "line+points")
 SCALES = ("linear", "log_x", "log_y", "log")
 COLOURS = ("viridis", "cividis", "magma", "plasma", "coolwarm", "Greys")
-_PARTS = ("curves", "references", "map")
+_PARTS = keys_of_map("more of a figure", "curves [@curve], references [@reference of a figure], map @map of a figure")
+_REFERENCE = keys_of_map("reference of a figure", "formula text, from number, to number, points list, x number, y number, label text, style text")
 CHARTS: Registry[Callable[..., None]] = Registry("chart", {name: f"{__package__}.charts" for name in ("drop_regimes", "jump_types")})
 chart = CHARTS  # the decorator: functions (axes, tables by name, **keys of the figure)
 
@@ -134,7 +136,7 @@ def _read_curve(keys: YamlMap) -> Curve:
 
 def _read_reference(keys: YamlMap) -> Reference:
     """{formula: exp(-0.028 * x), from: 0, to: 40}, {points: [[x, y], ...]}, {x: 3.5} or {y: 1}."""
-    keys.allow("formula", "from", "to", "points", "x", "y", "label", "style")
+    keys.allow(*_REFERENCE)
     out = Reference(keys.text("label"), keys.choice("style", STYLES))
     if sum(keys.has(key) for key in ("formula", "points", "x", "y")) != 1:
         hint = "for example {formula: exp(-0.028 * x), from: 0, to: 40}, {points: [[3.4, 0.342]]} or {y: 1}"

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..fields import Wanted
+from ..key_tables import keys as keys_of_map
 from ..results import Results
 from ..variables import wanted_array
 from ..yaml_map import YamlMap
@@ -31,13 +32,16 @@ def _share_past(q: np.ndarray) -> np.ndarray:
     return np.where(q < 0, 1 - upper, upper)
 
 
+_MASS_BALANCE = keys_of_map("analysis mass_balance", "kind text!, name text!, normal any, at any, where text, expected any, from number, to number")
+
+
 @analysis("mass_balance")
 class MassBalanceAnalysis(Analysis):
     """Mass that flows in through one plane and out through another one, and what is stored in between."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "normal", "at", "where", "expected", "from", "to")
+        keys.allow(*_MASS_BALANCE)
         self.which, self.window = read_where(keys), TimeWindow.read(keys)
         self.normal = "xyz".index(keys.choice("normal", ("x", "y", "z")))
         self.planes = np.array(keys.range("at", required=True) or (0.0, 1.0))
@@ -99,13 +103,16 @@ class _Extremes(NamedTuple):
     high: float
 
 
+_SOUNDNESS = keys_of_map("analysis soundness", "kind text!, name text!, c0 any, rho0 any, x positions, where text, from number, to number")
+
+
 @analysis("soundness")
 class SoundnessAnalysis(Analysis):
     """Largest Mach number and the range of the density over time, and what the run says of itself: its largest Mach number, leaks, verdict."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "c0", "rho0", "x", "where", "from", "to")
+        keys.allow(*_SOUNDNESS)
         self.which, self.window = read_where(keys), TimeWindow.read(keys)
         self.c0, self.rho0 = keys.positive("c0", 1, required=True), keys.positive("rho0", 1, required=True)
         self.range = keys.range("x") or (-math.inf, math.inf)

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..fields import StateFiles, Wanted
+from ..key_tables import keys as keys_of_map
 from ..variables import wanted_array
 from ..yaml_map import YamlMap
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis
@@ -33,13 +34,20 @@ class _Seen(NamedTuple):
     level: np.ndarray
 
 
+_JUMP_TYPE = keys_of_map(
+    "analysis jump_type",
+    "kind text!, name text!, step any, y1 any, v1 any, bed text|@bed, x positions, behind any, toe any, jet any, upstream any, band any, "
+    "average any, where text, link number, share number, from number, to number",
+)
+
+
 @analysis("jump_type")
 class JumpTypeAnalysis(Analysis):
     """Where the jet goes behind a step and where the toe is, and which type of jump that is, over time."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow(*"kind name step y1 v1 bed x behind toe jet upstream band average where link share from to".split())
+        keys.allow(*_JUMP_TYPE)
         self.which, self.spray, self.window = read_where(keys), read_spray(keys), TimeWindow.read(keys)
         self.y1, self.v1 = keys.positive("y1", 1, required=True), keys.positive("v1", 1, required=True)
         self.step, self.ground = keys.number("step"), Bed.read(keys)
@@ -190,6 +198,10 @@ def moving_mean(t: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
 REGIMES = ("undecided", "A-jump", "B-jump", "A-wave", "B-wave", "wave jump", "A-B", "A-B-wave")  # their places are the numbers in tables
 
 
+_TEST = keys_of_map("test of a drop", "name text!, y1 number!, yt number!, v1 number!, height number, type text")
+_DROP_REGIME = keys_of_map("analysis drop_regime", "kind text!, name text!, y1 any, yt any, v1 any, height any, g any, types any, tests any, F1 any")
+
+
 @analysis("drop_regime")
 class DropRegimeAnalysis(Analysis):
     """Froude number and tailwater depth of a run, and of tests beside it, between the momentum bounds of a B-jump and an A-jump."""
@@ -198,14 +210,14 @@ class DropRegimeAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "y1", "yt", "v1", "height", "g", "types", "tests", "F1")
+        keys.allow(*_DROP_REGIME)
         self.y1, self.yt, self.v1 = (keys.positive(key, 1, required=True) for key in ("y1", "yt", "v1"))
         self.height, self.g = keys.positive("height", 1, required=True), keys.positive("g", 9.81)
         self.types, self.range = keys.text("types"), keys.range("F1") or (2.0, 5.0)
         self.tests = [self._read_test(keys.element(node, "tests")) for node in keys.list("tests")]
 
     def _read_test(self, keys: YamlMap) -> list[float]:
-        keys.allow("name", "y1", "yt", "v1", "height", "type")
+        keys.allow(*_TEST)
         y1, yt, v1 = (keys.positive(key, 1, required=True) for key in ("y1", "yt", "v1"))
         return [*self._numbers(y1, yt, v1, keys.positive("height", self.height)), float(REGIMES.index(keys.choice("type", REGIMES)))]
 

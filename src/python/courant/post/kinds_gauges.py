@@ -9,6 +9,7 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..fields import StateFiles, Wanted
+from ..key_tables import keys as keys_of_map
 from ..words import short_number
 from ..yaml_map import Node, YamlMap, as_number, is_list, scalar_text
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis
@@ -26,6 +27,13 @@ class _Seen(NamedTuple):
     fallbacks: int
 
 
+_GAUGES = keys_of_map(
+    "analysis gauges",
+    "kind text!, name text!, of any, toe any, distances positions, x positions, height any, bed text|@bed, surface any, interpolation text, "
+    "wet any, where text, link number, share number, from number, to number",
+)
+
+
 @analysis("gauges")
 class GaugesAnalysis(Analysis):
     """Level of the surface, and quantities at a height over the bed, at distances from the mean place of the toe, over time.
@@ -35,7 +43,7 @@ class GaugesAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow(*"kind name of toe distances x height bed surface interpolation wet where link share from to".split())
+        keys.allow(*_GAUGES)
         self.of = read_quantities(keys, self.units) if keys.has("of") else []
         self.which, self.spray, self.window = read_where(keys), read_spray(keys), TimeWindow.read(keys)
         self.toe, self.distances = keys.text("toe", required=True), np.array(keys.places("distances", required=True))
@@ -150,6 +158,9 @@ class GaugesAnalysis(Analysis):
         self.say(f"  {len(at)} gauges from x = {at.min():.4g} to {at.max():.4g} {length}, toe at {toe:.4g}; means over {inside.sum()} states\n")
 
 
+_CORRELATION = keys_of_map("analysis correlation", "kind text!, name text!, of any, pairs any, from number, to number")
+
+
 @analysis("correlation")
 class CorrelationAnalysis(Analysis):
     """Pearson's correlation over time between series of another analysis at the same place, over their places."""
@@ -158,7 +169,7 @@ class CorrelationAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "of", "pairs", "from", "to")
+        keys.allow(*_CORRELATION)
         self.of, self.window = keys.text("of", required=True), TimeWindow.read(keys)
         self.pairs = [self._read_pair(keys, node) for node in keys.list("pairs", required=True)]
 

@@ -6,11 +6,15 @@ import numpy as np
 
 from ..fields import Wanted
 from ..files import make_folder, write_file
+from ..key_tables import keys as keys_of_map
 from ..surface_mesh import NoSurface, SurfaceMesh, surface_mesh
 from ..yaml_map import YamlMap
 from .analyses import Analysis, Run, Settings, TimeWindow, analysis
 from .state import State, read_quantities, read_spray, read_where, wanted_of
 from .tables import Series
+
+
+_SURFACE_MESH = keys_of_map("analysis surface_mesh", "kind text!, name text!, of any, where text, link number, share number, cell any, level any, from number, to number")
 
 
 @analysis("surface_mesh")
@@ -19,7 +23,7 @@ class SurfaceMeshAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "of", "where", "link", "share", "cell", "level", "from", "to")
+        keys.allow(*_SURFACE_MESH)
         self.of = read_quantities(keys, self.units) if keys.has("of") else []
         self.which, self.spray, self.window = read_where(keys), read_spray(keys), TimeWindow.read(keys)
         self.cell = keys.positive("cell", 0.0) if keys.has("cell") else None

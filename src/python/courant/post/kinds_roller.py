@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import YamlMap, as_number
 from .analyses import Analysis, Moments, Run, Settings, analysis, median
 from .jump import froude, largest_deviation_over_d1, roller_length_over_d1, surface_strouhal, velocity_decay
@@ -22,6 +23,13 @@ def zero_behind(x: np.ndarray, values: np.ndarray, x1: float) -> float:
     return float(x[k] + a[k] / (a[k] - b[k]) * (x[k + 1] - x[k]))
 
 
+_ROLLER = keys_of_map(
+    "analysis roller",
+    "kind text!, name text!, profile any, velocity any, surface any, spectrum any, toe any, v1 any, d1 any, g any, "
+    "decay_to any",
+)
+
+
 @analysis("roller")
 class RollerAnalysis(Analysis):
     """A jump against equations 2 to 5."""
@@ -30,7 +38,7 @@ class RollerAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "profile", "velocity", "surface", "spectrum", "toe", "v1", "d1", "g", "decay_to")
+        keys.allow(*_ROLLER)
         self.profile, self.velocity = keys.text("profile"), keys.text("velocity", "vx_mean")
         self.surface, self.spectrum = keys.text("surface"), keys.text("spectrum")
         self.toe = keys.text("toe", required=True)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..ascii_kinds import AsciiKey, column_name
 from ..histories import HistoryFile
+from ..key_tables import keys as keys_of_map
 from ..words import nearest_word
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
 from .analyses import Analysis, Moments, Run, Settings, TimeWindow, analysis, median
@@ -113,13 +114,17 @@ class _SeriesAnalysis(Analysis):
         )
 
 
+_COLUMN = keys_of_map("column of a history", "name text, of text!, id number, side text, factor number, unit text")
+_HISTORY = keys_of_map("analysis history", "kind text!, name text!, file text, of any, id number, side text, from number, to number")
+
+
 @analysis("history")
 class HistoryAnalysis(_SeriesAnalysis):
     """Series of history.h5, or of one ASCII file."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "file", "of", "id", "side", "from", "to")
+        keys.allow(*_HISTORY)
         self.file = keys.text("file")
         common = self._owner(keys, AsciiKey(""))
         self.sources = [self._source(keys, node, common) for node in keys.list("of", required=True)]
@@ -143,7 +148,7 @@ class HistoryAnalysis(_SeriesAnalysis):
         text = scalar_text(node)
         if is_map(node):
             entry = keys.element(node, "of")
-            entry.allow("name", "of", "id", "side", "factor", "unit")
+            entry.allow(*_COLUMN)
             out.name, text = entry.text("name", required=True), entry.text("of", required=True)
             out.factor, out.unit = entry.number("factor", 1.0), entry.text("unit")
             out.key = self._owner(entry, common)
@@ -189,13 +194,16 @@ class HistoryAnalysis(_SeriesAnalysis):
                 self.add_column(source, file.columns[key], self.units.of_text(file.dimension(key)))
 
 
+_FORCE = keys_of_map("analysis force", "kind text!, name text!, contacts list, bodies list, from number, to number")
+
+
 @analysis("force")
 class ForceAnalysis(_SeriesAnalysis):
     """Forces on walls and bodies from history.h5."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "contacts", "bodies", "from", "to")
+        keys.allow(*_FORCE)
         # a contact's history is the force on the particles; on the walls it is the opposite
         for key, group, word, factor in (("contacts", "contacts", "contact", -1.0), ("bodies", "rigid_bodies", "body", 1.0)):
             for id in (scalar_text(node) for node in keys.list(key)):
@@ -203,6 +211,13 @@ class ForceAnalysis(_SeriesAnalysis):
                     self.sources.append(_Source(f"force_{axis}_{word}{id}", f"/{group}/{id}/force", component, factor))
         if not self.sources:
             keys.error(keys.node, f"'{keys.name}' names neither contacts nor bodies", "for example contacts: [1]")
+
+
+_SPECTRUM = keys_of_map(
+    "analysis spectrum",
+    "kind text!, name text!, of any, only any, from number, to number, segment any, overlap any, window any, detrend any, "
+    "band any",
+)
 
 
 @analysis("spectrum")
@@ -214,7 +229,7 @@ class SpectrumAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "of", "only", "from", "to", "segment", "overlap", "window", "detrend", "band")
+        keys.allow(*_SPECTRUM)
         self.of, self.window = keys.text("of", required=True), TimeWindow.read(keys)
         self.only = keys.texts("only")  # of the series, or of what stands before their @
         segment, overlap = keys.positive("segment"), keys.number("overlap", 0.5)
@@ -313,6 +328,9 @@ class SpectrumAnalysis(Analysis):
         )
 
 
+_TOE = keys_of_map("analysis toe", "kind text!, name text!, of any, depth any, x positions, from number, to number")
+
+
 @analysis("toe")
 class ToeAnalysis(Analysis):
     """Where the surface first rises over a threshold, over time."""
@@ -321,7 +339,7 @@ class ToeAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "of", "depth", "x", "from", "to")
+        keys.allow(*_TOE)
         self.of, self.depth = keys.text("of", required=True), keys.positive("depth", required=True)
         self.range = keys.range("x") or (-math.inf, math.inf)
         self.window = TimeWindow.read(keys)

@@ -9,6 +9,7 @@ import numpy as np
 from ..diagnostics import Diagnostics
 from ..fields import StateFiles, Wanted
 from ..files import make_folder, write_file
+from ..key_tables import keys as keys_of_map
 from ..units import Units
 from ..variables import wanted_array
 from ..words import short_number
@@ -20,13 +21,20 @@ from .state import State, read_quantities, read_spray, read_where, wanted_of
 from .tables import Column, Image, Series, write_vti
 
 
+_PROBE = keys_of_map(
+    "analysis probe",
+    "kind text!, name text!, of any, where text, link number, share number, interpolation text, wet any, at any, from number, "
+    "to number",
+)
+
+
 @analysis("probe")
 class ProbeAnalysis(Analysis):
     """Quantities at points over time."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "of", "where", "link", "share", "interpolation", "wet", "at", "from", "to")
+        keys.allow(*_PROBE)
         self.sampler = Sampler(keys, self.units)
         self.window = TimeWindow.read(keys)
         self.points = Points(np.array([self._point(keys, node) for node in keys.list("at", required=True)]).reshape(-1, 3))
@@ -92,6 +100,13 @@ def depth_over(pieces: Pieces, bed: np.ndarray, h: float, first: bool = False) -
     return depth
 
 
+_SURFACE = keys_of_map(
+    "analysis surface",
+    "kind text!, name text!, where text, link number, share number, x positions, across any, bed text|@bed, surface any, layers any, "
+    "from number, to number",
+)
+
+
 @analysis("surface")
 class SurfaceAnalysis(Analysis):
     """Depth of the water over time on lines against gravity."""
@@ -99,7 +114,7 @@ class SurfaceAnalysis(Analysis):
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
         # across: the second coordinate that lies in the bed
-        keys.allow("kind", "name", "where", "link", "share", "x", "across", "bed", "surface", "layers", "from", "to")
+        keys.allow(*_SURFACE)
         self.which, self.spray, self.window = read_where(keys), read_spray(keys), TimeWindow.read(keys)
         self.x: np.ndarray = np.array(keys.places("x", required=True))
         across = keys.number("across")
@@ -202,6 +217,13 @@ class Sampler:
         return Sample(values, wet, weights.colour, int(weights.fallback.sum()))
 
 
+_GRID = keys_of_map(
+    "analysis grid",
+    "kind text!, name text!, of any, where text, link number, share number, interpolation text, wet any, least_wet any, x positions, "
+    "y positions, z positions, from number, to number, states any",
+)
+
+
 @analysis("grid")
 class GridAnalysis(Analysis):
     """Means and deviations of quantities on points, over the states that have water there."""
@@ -211,7 +233,7 @@ class GridAnalysis(Analysis):
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow(*"kind name of where link share interpolation wet least_wet x y z from to states".split())
+        keys.allow(*_GRID)
         self.sampler = Sampler(keys, self.units)
         self.window = TimeWindow.read(keys)
         self.least_wet = keys.number("least_wet", 0.5)  # share of the states that must have water at a point
@@ -306,13 +328,16 @@ _FLUXES = ("mass", "volume", "momentum_x", "momentum_y", "momentum_z", "pressure
 _FLUX_DIMENSIONS = ((1, 0, -1), (0, 3, -1), *[(1, 1, -2)] * 4, *[(1, 2, -3)] * 3)
 
 
+_FLUX = keys_of_map("analysis flux", "kind text!, name text!, where text, normal any, at any, x positions, y positions, z positions, g any, level any, from number, to number")
+
+
 @analysis("flux")
 class FluxAnalysis(Analysis):
     """What flows through planes across an axis: sums over particles of (m v_n q) W1(distance), W1 the cubic spline in one dimension."""
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
         super().__init__(keys, settings)
-        keys.allow("kind", "name", "where", "normal", "at", "x", "y", "z", "g", "level", "from", "to")
+        keys.allow(*_FLUX)
         self.which = read_where(keys)
         self.normal = "xyz".index(keys.choice("normal", ("x", "y", "z")))
         self.at: np.ndarray = np.array(keys.places("at", required=True))

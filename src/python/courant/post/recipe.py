@@ -8,6 +8,7 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING, Any
 
 from ..diagnostics import Diagnostics, Location
+from ..key_tables import keys as keys_of_map
 from ..units import Units
 from ..yaml_map import Node, YamlMap, is_map, key, load_yaml, scalar_text
 from .analyses import Analysis, Settings, read_analysis
@@ -17,7 +18,16 @@ from .jump import INTERVAL, JumpRecipe, PublishedRow
 if TYPE_CHECKING:
     from .view_scene import View
 
-_KEYS = ("case", "probes", "jump", "snapshots", "units", "up", "folder", "analyses", "figures", "formats", "views", "missing")
+_KEYS = keys_of_map(
+    "recipe",
+    "case text, probes [@probe of a recipe], jump @jump, snapshots @snapshots, units @units, up text, folder text, analyses [@analysis], figures [@figure], "
+    "formats list, views [@view], missing @missing",
+)
+_MISSING = keys_of_map("missing", "density number, smoothing_length number")
+_OF_JUMP = keys_of_map("more of a jump", "intervals list!, published [@published], toe @toe, front @front")
+_TOE = keys_of_map("toe", "x list!, threshold number")
+_FRONT = keys_of_map("front", "x number!, threshold number")
+_UNITS = keys_of_map("units", "mass text, length text, time text")
 
 
 @dataclass(frozen=True)
@@ -82,7 +92,7 @@ def read_recipe(file: str | PathLike[str], diagnostics: Diagnostics, units: Unit
         out.snapshots = snapshots.read(SnapshotRecipe)
     out.settings = _read_settings(keys, units)
     if missing := keys.map("missing"):
-        missing.allow("density", "smoothing_length")
+        missing.allow(*_MISSING)
         out.missing = {name: missing.positive(name, 1) for name in ("density", "smoothing_length") if missing.has(name)}
     for node in keys.list("analyses"):
         _read_one(keys, node, out)
@@ -102,17 +112,17 @@ def _read_jump(keys: YamlMap) -> JumpRecipe:
     known: dict[str, Any] = {"intervals": [keys.range_of(node, "intervals", INTERVAL) or (0.0, 0.0) for node in keys.list("intervals", required=True)]}
     known["published"] = [keys.element(node, "published").read(PublishedRow) for node in keys.list("published")]
     if toe := keys.map("toe"):
-        toe.allow("x", "threshold")
+        toe.allow(*_TOE)
         known |= {"toe_range": toe.range("x", required=True, example=INTERVAL), "toe_threshold": toe.positive("threshold", 1.5)}
     if front := keys.map("front"):
-        front.allow("x", "threshold")
+        front.allow(*_FRONT)
         known |= {"front_x": front.number("x", required=True), "front_threshold": front.positive("threshold", 1.3)}
-    return keys.read(JumpRecipe, "intervals", "published", "toe", "front", **known)
+    return keys.read(JumpRecipe, *_OF_JUMP, **known)
 
 
 def _read_settings(keys: YamlMap, units: Units) -> Settings:
     if of := keys.map("units"):
-        of.allow("mass", "length", "time")
+        of.allow(*_UNITS)
         units = Units(of.text("mass", "kg"), of.text("length", "m"), of.text("time", "s"))
     return Settings(units, "xyz".index(keys.choice("up", ("y", "z"))))
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..expressions import Formula
 from ..fields import ParticleFrame, Wanted
+from ..key_tables import keys as keys_of_map
 from ..units import Units
 from ..variables import VARIABLES, arrays_of, dimension_of, variable_of
 from ..yaml_map import Node, YamlMap, is_map, is_scalar, scalar_text
@@ -16,6 +17,8 @@ from .particles import ParticleSet, SprayRule, water_body
 
 
 NAMES = (*VARIABLES, "vorticity")  # of expressions; vorticity: dvy/dx - dvx/dy, of the active particles
+
+_QUANTITY = keys_of_map("quantity", "name text!, of text!, unit text")
 
 
 @dataclass(frozen=True)
@@ -88,7 +91,7 @@ def _read_quantity(keys: YamlMap, node: Node, units: Units) -> Quantity:
         name, unit, of = scalar_text(node), unit_of(scalar_text(node)), read_expression(keys, node, "of")
     else:
         entry = keys.element(node, "of")
-        entry.allow("name", "of", "unit")
+        entry.allow(*_QUANTITY)
         unit = entry.text("unit", unit_of(entry.text("of", required=True)))
         name = entry.text("name", required=True)
         inner = entry.get("of")

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..diagnostics import CourantError, Diagnostics, Location
 from ..files import write_figure
+from ..key_tables import keys as keys_of_map
 from ..optional import module
 from ..style import pyplot
 from ..units import Dimension
@@ -21,7 +22,10 @@ from .view_plane import draw_plane, plane_window
 from .view_scene import Scene, UnknownField, View, colour_range, scenes_of
 from .view_space import camera_of, draw_axes, draw_panel, frame_of, render
 
-_PARTS = ("times", "camera", "x", "y", "z", "mirror", "columns", "gauges", "theory")  # keys that are more than one field, or none as it is
+# keys that are more than one field, or none as it is
+_PARTS = keys_of_map("more of a view", "times list, camera @camera, x list, y list, z list, mirror text|list, columns number, gauges positions, theory @theory")
+_CAMERA = keys_of_map("camera", "azimuth number, elevation number")
+_THEORY = keys_of_map("theory", "of any!, x list, label text")
 _DPI = 120
 
 
@@ -37,12 +41,12 @@ def read_view(keys: YamlMap) -> View:
     if factor != 1 and not keys.has("unit"):
         keys.error(keys.get("factor") or keys.node, f"'{keys.name}.factor' needs the unit that comes of it", "for example {unit: MPa, factor: 1e-6}")
     if camera := keys.map("camera"):
-        camera.allow("azimuth", "elevation")
+        camera.allow(*_CAMERA)
         out |= {"azimuth": camera.number("azimuth") if camera.has("azimuth") else None, "elevation": camera.number("elevation", 20.0)}
         if not -90 <= out["elevation"] <= 90:
             camera.error(camera.get("elevation") or camera.node, f"'{camera.name}.elevation' must be -90 to 90 degrees")
     if theory := keys.map("theory"):
-        theory.allow("of", "x", "label")
+        theory.allow(*_THEORY)
         node = theory.get("of", required=True)
         out |= {"theory": None if node is None else read_expression(theory, node, "of", ("x",)), "theory_range": theory.range("x")}
         out["theory_label"] = theory.text("label", "theory")

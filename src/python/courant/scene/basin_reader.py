@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..diagnostics import Diagnostics
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_scalar
 from .basin import Basin, add_basin
 from .joints import joined_names
@@ -16,11 +17,20 @@ from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
+from .structure_checks import check_structures
 from .structure_reader import read_structures
 from .water_checks import check_overlaps, check_piston, positions
 from .wave_reader import Piston, check_reach, read_waves
 
-_WATER = ("spacing", "blocks", "bodies", "density", "sound_speed", "viscosity", "tension", "velocity", "pressure")
+_WATER = keys_of_map(
+    "water",
+    "spacing number!, blocks [@a block], bodies [@a body of water], density number, sound_speed number, viscosity number, tension flag, velocity list, "
+    "pressure number",
+)
+_BOX = keys_of_map("box", "low vector!, high vector!, open list, motion @motion")
+_MOTION = keys_of_map("motion", "x text, y text, z text, waves @waves")
+_OF_WALL = keys_of_map("a wall, besides its shape", "motion @motion")
+_OF_BODY = keys_of_map("a body, besides its shape", "density number, mass number, velocity list, hold any")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
 MOST_MIRRORS = 12  # lines of a shape in the plane
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
@@ -66,6 +76,7 @@ class BasinReader(ShapeReader):
         if self.diagnostics.errors == before:
             self.fill(basin)
             self.check_solids(basin)
+            check_structures(basin, self.diagnostics)
             self.check_water(basin)
             self.check_bodies_of_the_plane(basin, joined_names(self, root))
         self.complete = self.diagnostics.errors == before
@@ -122,7 +133,7 @@ class BasinReader(ShapeReader):
     def read_box(self, node: Node, basin: Basin) -> None:
         if not self.is_map(node, "box: {low: [0, 0], high: [2, 1], open: [top]}", "box"):
             return
-        self.check_keys(node, "box", ("low", "high", "open", "motion"))
+        self.check_keys(node, "box", _BOX)
         low, low_dim = self.vector(node, "low")
         high, high_dim = self.vector(node, "high")
         basin.box = (low, high)
@@ -146,7 +157,7 @@ class BasinReader(ShapeReader):
         entry = self.get(node, "motion")
         if entry is None or not self.is_map(entry, "motion: {x: 0.05 * sin(2 * PI * TIME / 1.2)}", "motion"):
             return {}
-        axes = ("x", "y", "z")[: self.dim or 3]
+        axes = _MOTION[: self.dim or 3]
         self.check_keys(entry, "motion", (*axes, "waves"))
         out: dict[str, str | np.ndarray] = {}
         made: str | np.ndarray
@@ -177,7 +188,7 @@ class BasinReader(ShapeReader):
 
     def read_solids(self, root: Node, basin: Basin) -> None:
         """Walls that are held or driven, and bodies that move freely."""
-        for key, what, others in (("walls", "a wall", ("motion",)), ("bodies", "a body", ("density", "mass", "velocity", "hold"))):
+        for key, what, others in (("walls", "a wall", _OF_WALL), ("bodies", "a body", _OF_BODY)):
             node = self.get(root, key)
             for entry in self._list(node, key) if node is not None else ():
                 shape = self.read_shape(entry, what, basin.spacing, others)

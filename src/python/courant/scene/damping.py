@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..key_tables import keys as keys_of_map
 from ..words import shortest
 from ..yaml_map import Node, is_list
 
@@ -10,6 +11,7 @@ if TYPE_CHECKING:
     from .model import Model, Vector
     from .reader import SceneReader
 
+_KEYS = keys_of_map("a damping zone", "start vector!, end vector!, rate number!, exponent number")
 _EXAMPLE = "- {start: [6, 0], end: [8, 0], rate: 5}"
 
 
@@ -27,7 +29,7 @@ def read_damping(reader: SceneReader, root: Node, model: Model) -> None:
 
 
 def _read_zone(reader: SceneReader, node: Node, model: Model) -> None:
-    reader.check_keys(node, "a damping zone", ("start", "end", "rate", "exponent"))
+    reader.check_keys(node, "a damping zone", _KEYS)
     before = reader.diagnostics.errors
     (start, dim), (end, end_dim) = reader.vector(node, "start"), reader.vector(node, "end")
     rate = _above_zero(reader, node, "rate")

@@ -5,17 +5,19 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list
 from .model import Model, Part
 from .numbers import number_text
 from .placeholders import substitute
+from .lattice_reader import BLOCK
 from .requests import REQUESTS
 
 if TYPE_CHECKING:
     from .reader import SceneReader
 
-_KEYS = ("density", "pressure", "velocity", "gamma", "title")
-_LATTICE = ("low", "high", "where", "jitter")
+_KEYS = keys_of_map("a gas, besides its lattice", "density number!, pressure number!, velocity list, gamma number, title text")
+_BOX = keys_of_map("box beside gases", "low vector!, high vector!, open list")
 _EXAMPLE = "- {low: [0, 0], high: [0.5, 0.1], density: 1.2, pressure: 1.0e5}"
 _NOT_BESIDE = ("walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "damping")
 AIR = 1.4  # ratio of heat capacities
@@ -110,7 +112,7 @@ def _gravity_cards(dim: int, gravity: float, end: float) -> str:
 
 
 def _read_gas(reader: SceneReader, node: Node, number: int, spacing: float) -> Gas | None:
-    reader.check_keys(node, "a gas", (*_LATTICE, *_KEYS))
+    reader.check_keys(node, "a gas", (*BLOCK, *_KEYS))
     before = reader.diagnostics.errors
     part = Part(id=number, title=f"gas {number}", section=1, material=number, eos=number, hourglass=1, where=reader.at(node))
     if (title := reader.get(node, "title")) is not None:
@@ -131,7 +133,7 @@ def _planes(reader: SceneReader, root: Node, gases: list[Gas]) -> str:
     box = reader.get(root, "box")
     if box is None or not reader.is_map(box, "box: {low: [0, 0], high: [2, 1], open: [top]}", "box"):
         return ""
-    reader.check_keys(box, "box beside gases", ("low", "high", "open"))
+    reader.check_keys(box, "box beside gases", _BOX)
     (low, dim), (high, high_dim) = reader.vector(box, "low"), reader.vector(box, "high")
     if dim != high_dim or dim != reader.dim:
         reader.error(box, f"box: low and high have {reader.dim} components, as the gases")

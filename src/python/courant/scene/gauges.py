@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..key_tables import keys as keys_of_map
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 # Each kind with the corners of its points in the plane and in space: the least and the most.
 _KINDS = {"point": (1, 1), "level": (2, 2), "runup": (2, 2), "flux": (2, 3), "force": (0, 0)}
-_KEYS = (*_KINDS, "name", "interval", "with", "about")
+_KEYS = keys_of_map("a gauge", "point vector, level list, runup list, flux list, force any, name text!, interval number, with any, about any")
 _FOREIGN = re.compile(r"[^A-Za-z0-9_.-]", re.ASCII)  # characters that become _, as the program has it
 _LONGEST = 60  # name
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..key_tables import keys as keys_of_map
 from ..words import did_you_mean
 from ..yaml_map import Node, is_list
 from .numbers import number_text
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 # Each kind with its name in decks, and how many pairs of nodes fix it: at the point, along the axis, beside it.
 _KINDS = {"ball": ("SPHERICAL", 1), "hinge": ("REVOLUTE", 2), "cylindrical": ("CYLINDRICAL", 2), "slider": ("TRANSLATIONAL", 3), "fixed": ("LOCKING", 3)}
-_KEYS = ("kind", "between", "at", "axis", "stiffness", "damping", "title")
+_KEYS = keys_of_map("a joint", "kind text!, between list!, at vector!, axis vector, stiffness number, damping number, title text")
 _EXAMPLE = "- {kind: hinge, between: [gate, walls], at: [1, 0]}"
 FIRST_NODE, FIRST_CURVE, FIRST_STIFFNESS = 90000001, 951, 1
 

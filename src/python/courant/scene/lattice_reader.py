@@ -6,11 +6,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from ..diagnostics import Diagnostics
+from ..key_tables import keys as keys_of_map
 from ..words import shortest
 from ..yaml_map import Node, is_list, is_scalar
 from .model import MOST_ENTITIES, MOST_JITTER, Lattice, Part, PlaceExpression
 from .node_reader import named_places
 from .parameters import ParameterReader
+
+BLOCK = keys_of_map("a block", "low vector!, high vector!, where text, jitter number")
+LATTICE = keys_of_map("a lattice", "low vector!, high vector!, spacing number!, where text, jitter number")
 
 
 class LatticeReader(ParameterReader):
@@ -35,7 +39,7 @@ class LatticeReader(ParameterReader):
     def read_lattice(self, node: Node, spacing: float = 0.0, others: tuple[str, ...] = ()) -> Lattice:
         """`spacing`: of blocks, which have none of their own; `others`: keys that the entry may have besides."""
         block = spacing > 0
-        self.check_keys(node, "a block" if block else "a lattice", ("low", "high", *(() if block else ("spacing",)), "where", "jitter", *others))
+        self.check_keys(node, "a block" if block else "a lattice", (*(BLOCK if block else LATTICE), *others))
         before = self.diagnostics.errors
         (low, dim), (high, high_dim) = self.vector(node, "low"), self.vector(node, "high")
         lattice = Lattice(dim, low, spacing if block else self.length(node, "spacing"), (0, 0, 1), location=self.at(node))

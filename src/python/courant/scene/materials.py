@@ -5,6 +5,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from ..key_tables import keys as keys_of_map
 from ..words import did_you_mean
 from ..yaml_map import Node, is_map
 from .placeholders import substitute
@@ -33,7 +34,7 @@ NAMED = {
     "concrete": Material(2400, 30e9, 0.2), "glass": Material(2500, 70e9, 0.22), "wood": Material(600, 11e9, 0.3),
     "ice": Material(917, 9e9, 0.33), "acrylic": Material(1190, 3.2e9, 0.37), "polyethylene": Material(950, 0.9e9, 0.42),
     "rubber": Material(1100, 5e6, 0.47)}
-_KEYS = ("like", "density", "young", "poisson", "yield", "tangent")
+_KEYS = keys_of_map("a material", "like text, density number, young number, poisson number, yield number, tangent number")
 _EXAMPLE = "material: steel, or material: {density: 2500, young: 1.0e6, poisson: 0.3}"
 
 _ELASTIC = """\

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..diagnostics import Location
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_scalar
 from .numbers import number_text
 from .placeholders import PlaceholderFault, substitute
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from .model import Model
     from .reader import SceneReader
 
+_OF_INLET = keys_of_map("an inlet", "at vector!, direction vector!, width number, radius number, sides list, speed number!, start number, end number")
+_OF_OUTLET = keys_of_map("an outlet", "side text!, level number")
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
 _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
 _BOX_HEAD = "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n"
@@ -59,7 +62,7 @@ def read_openings(reader: SceneReader, root: Node, basin: Basin) -> None:
 
 def _read_inlet(reader: SceneReader, node: Node, basin: Basin) -> None:
     shapes = ("width",) if basin.dim == 2 else ("radius", "sides")
-    reader.check_keys(node, "an inlet", ("at", "direction", *shapes, "speed", "start", "end"))
+    reader.check_keys(node, "an inlet", [key for key in _OF_INLET if key in shapes or key not in ("width", "radius", "sides")])
     before = reader.diagnostics.errors
     vectors = [reader.vector(node, key) for key in ("at", "direction")]
     if any(dim and dim != basin.dim for _, dim in vectors):
@@ -122,7 +125,7 @@ def _speed(reader: SceneReader, node: Node) -> tuple[float, str]:
 
 
 def _read_outlet(reader: SceneReader, node: Node, basin: Basin) -> None:
-    reader.check_keys(node, "an outlet", ("side", "level"))
+    reader.check_keys(node, "an outlet", _OF_OUTLET)
     entry = reader.get(node, "side")
     sides = [side for side in basin.sides if side != "top"]
     side = reader.text(entry) if entry is not None else ""

@@ -9,10 +9,13 @@ from pathlib import Path
 
 from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, evaluate
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_map, is_scalar, parse_yaml, scalar_text
 from .node_reader import OF_PYTHON, NodeReader
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*", re.ASCII)
+
+_BASE = keys_of_map("a base", "base text|list, parameters map, parts [@a part], keywords text|list")
 
 
 @dataclass
@@ -82,7 +85,7 @@ class ParameterReader(NodeReader):
             return None
         self.loading.append(path)
         scene, self.path = self.path, path
-        self.check_keys(root, "a base", ("base", "parameters", "parts", "keywords"))
+        self.check_keys(root, "a base", _BASE)
         if is_map(root):
             self._load_bases(root, above)
         self.path = scene

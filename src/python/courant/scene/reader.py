@@ -5,6 +5,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ..key_tables import keys as keys_of_map
 from ..words import shortest
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin_reader import BasinReader
@@ -15,8 +16,18 @@ from .joints import read_joints
 from .model import MOST_ENTITIES, Model, Part, Plate
 from .placeholders import PlaceholderFault, substitute
 
-_SCENE = ("title", "base", "parameters", "spacing", "water", "gases", "box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output", "parts", "gauges", "damping", "keywords")
-_PART = ("id", "title", "section", "material", "eos", "hourglass", "velocity", "pressure", "density", "merge", "first_id", "lattices", "plates")
+_SCENE = keys_of_map(
+    "the scene",
+    "title text, base text|list, parameters map, spacing number, water @water, gases [@a gas], box @box, walls [@a wall], bodies [@a body], "
+    "structures [@a structure], joints [@a joint], inlets [@an inlet], outlets [@an outlet], wall_method text, gravity number, end number, output number, "
+    "parts [@a part], gauges [@a gauge], damping [@a damping zone], keywords text|list",
+)
+_PART = keys_of_map(
+    "a part",
+    "id number!, title text, section number!, material number!, eos number, hourglass number, velocity list, pressure number, density number, merge flag, "
+    "first_id number, lattices [@a lattice], plates [@a plate]",
+)
+_PLATE = keys_of_map("a plate", "origin vector!, edge1 vector!, edge2 vector!, mesh number|list!")
 
 
 class SceneReader(BasinReader):
@@ -112,7 +123,7 @@ class SceneReader(BasinReader):
         return both, both
 
     def read_plate(self, node: Node) -> Plate:
-        self.check_keys(node, "a plate", ("origin", "edge1", "edge2", "mesh"))
+        self.check_keys(node, "a plate", _PLATE)
         before = self.diagnostics.errors
         origin, edge1, edge2 = (self.vector(node, key)[0] for key in ("origin", "edge1", "edge2"))
         meshes = self._mesh_of(node)

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 import yaml
 
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_map
 from . import shapes
 from .lattice_reader import LatticeReader
@@ -16,8 +17,12 @@ from .node_reader import OF_PYTHON
 from .shapes import Shape
 from .surfaces import ShapeFault, read_shape, shape_of, sound
 
-KINDS = ("file", "mesh", "box", "cylinder", "sphere", "circle", "line", "plate")
-SHAPE = (*KINDS, "title", "scale", "turn", "move", "close", "open", "ground")
+KINDS = keys_of_map("a kind of shape", "file text, mesh any, box @a box, cylinder @a cylinder, sphere @a sphere, circle any, line any, plate @a shape's plate")
+SHAPE = (*KINDS, *keys_of_map("of every shape", "title text, scale number|list, turn any, move list, close flag, open flag, ground flag"))
+BOX = keys_of_map("a box", "low vector!, high vector!")
+CYLINDER = keys_of_map("a cylinder", "base vector!, top vector!, radius number!")
+SPHERE = keys_of_map("a sphere", "centre vector!, radius number!")
+PLATE = keys_of_map("a shape's plate", "origin vector!, edge1 vector!, edge2 vector!")
 _OPEN = ("line", "plate")  # need not be closed
 Moved = TypeVar("Moved", Shape, Mesh)
 
@@ -97,14 +102,14 @@ class ShapeReader(LatticeReader):
         return [np.array(v) for v, _ in read], min(dims) if dims else 0
 
     def _box(self, entry: Node, spacing: float) -> Shape | None:
-        self.check_keys(entry, "box", ("low", "high"))
+        self.check_keys(entry, "box", BOX)
         (low, high), dim = self._points(entry, "box", "low", "high")
         if dim and not np.all(high[:dim] > low[:dim]):
             return self._refuse(entry, "box: high must be above low along each axis")
         return shapes.box(low, high, dim) if dim else None
 
     def _cylinder(self, entry: Node, spacing: float) -> Shape | None:
-        self.check_keys(entry, "cylinder", ("base", "top", "radius"))
+        self.check_keys(entry, "cylinder", CYLINDER)
         (base, top), dim = self._points(entry, "cylinder", "base", "top")
         radius = self.length(entry, "radius")
         if dim == 2 or not np.linalg.norm(top - base) > 0:
@@ -112,7 +117,7 @@ class ShapeReader(LatticeReader):
         return shapes.cylinder(base, top, radius, spacing) if radius > 0 else None
 
     def _sphere(self, entry: Node, spacing: float) -> Shape | None:
-        self.check_keys(entry, "sphere", ("centre", "radius"))
+        self.check_keys(entry, "sphere", SPHERE)
         (centre,), dim = self._points(entry, "sphere", "centre")
         radius = self.length(entry, "radius")
         return shapes.sphere(centre, radius, spacing, dim) if radius > 0 and dim else None
@@ -120,7 +125,7 @@ class ShapeReader(LatticeReader):
     _circle = _sphere
 
     def _plate(self, entry: Node, spacing: float) -> Shape | None:
-        self.check_keys(entry, "plate", ("origin", "edge1", "edge2"))
+        self.check_keys(entry, "plate", PLATE)
         (origin, edge1, edge2), dim = self._points(entry, "plate", "origin", "edge1", "edge2")
         if dim == 2 or not np.linalg.norm(np.cross(edge1, edge2)) > 0:
             return self._refuse(entry, "plate: edge1 and edge2 span an area in space", "in the plane a plate is a line: [[x, y], [x, y]]")

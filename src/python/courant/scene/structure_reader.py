@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..expressions import Formula
+from ..key_tables import keys as keys_of_map
 from ..optional import MissingModule, module
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from . import meshes
 from .materials import read_material
 from .meshes import SOLIDS, Mesh
-from .shape_reader import DataNode
+from .shape_reader import BOX, CYLINDER, SPHERE, DataNode
 from .structures import FIRST_STRUCTURE, Structure
 from .surfaces import ShapeFault, read_shape, shape_of, sound
 from .volume_mesh import tetrahedra
@@ -21,8 +22,15 @@ if TYPE_CHECKING:
     from .basin import Basin
     from .reader import SceneReader
 
-_KINDS = ("box", "cylinder", "sphere", "plate", "line", "file", "mesh")
-_KEYS = (*_KINDS, "material", "thickness", "size", "fix", "to", "track", "velocity", "title", "scale", "turn", "move", "close")
+_KINDS = keys_of_map("a kind of structure", "box @a box, cylinder @a cylinder, sphere @a sphere, plate any, line any, file text, mesh any")
+_KEYS = (
+    *_KINDS,
+    *keys_of_map(
+        "of every structure",
+        "material text|@a material!, thickness number, size number|list, fix any, to any, track any, velocity list, title text, scale number|list, turn any, "
+        "move list, close flag",
+    ),
+)
 _EXAMPLE = "- {box: {low: [0.6, 0], high: [0.612, 0.08]}, material: rubber, fix: bottom}"
 _ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "bottom": (2, 0), "top": (2, 1)}
 
@@ -120,7 +128,7 @@ def _made(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin,
         origin, a, b = shape.points[0], shape.points[1] - shape.points[0], shape.points[3] - shape.points[0]
         usual = np.full(3, max(min(2 * dx, min(np.linalg.norm(a), np.linalg.norm(b)) / 8), thickness / 2))
         return meshes.plate(origin, a, b, _sizes(reader, node, usual))
-    reader.check_keys(entry, kind, {"box": ("low", "high"), "cylinder": ("base", "top", "radius"), "sphere": ("centre", "radius")}[kind])
+    reader.check_keys(entry, kind, {"box": BOX, "cylinder": CYLINDER, "sphere": SPHERE}[kind])
     if kind == "box":
         (low, high), dim = reader._points(entry, "box", "low", "high")
         if dim and (dim != basin.dim or not np.all(high[:dim] > low[:dim])):

@@ -44,10 +44,11 @@ class Structure:
         """What has no water: the solid with half a spacing beside it, or the layer of a shell."""
         if self.mesh.kind != SOLIDS:
             return NearShells(self.mesh, (self.thickness + spacing) / 2 * (1 - 1e-6))
-        margin = 0.5 * spacing * (1 - 1e-6)
-        if dim == 2:
-            return Near(_section(self.mesh), margin)
-        return Near(Shape(self.mesh.points, self.mesh.outer_faces(), 3), margin)
+        return Near(self.outline(dim), 0.5 * spacing * (1 - 1e-6))
+
+    def outline(self, dim: int) -> Shape:
+        """The surface of solids, in the plane its section."""
+        return _section(self.mesh) if dim == 2 else Shape(self.mesh.points, self.mesh.outer_faces(), 3)
 
 
 @dataclass

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..diagnostics import Location
+from ..key_tables import keys as keys_of_map
 from ..waves import KINDS, MAKERS, WaveFault, Waves
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
@@ -31,7 +32,11 @@ _USED = {
 }
 _FLAPS = ("regular", "focused", "jonswap", "pierson_moskowitz", "elevation", "still")
 _DRIFT = 10.0  # periods in which the drift of absorption goes back
-_KEYS = ("kind", "depth", "height", "period", "seed", "gamma", "focus", "components", "ramp", "record", "towards", "maker", "hinge", "absorb", "drift")
+_KEYS = keys_of_map(
+    "waves",
+    "kind text, depth number, height number, period number, seed number, gamma number, focus any, components number, ramp number, record text|list, "
+    "towards text, maker text, hinge number, absorb number|flag, drift number|flag",
+)
 _SIDES = {"x": ("x", 1.0), "-x": ("x", -1.0), "y": ("y", 1.0), "-y": ("y", -1.0)}
 
 

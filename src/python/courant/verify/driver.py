@@ -18,6 +18,7 @@ from ..diagnostics import Diagnostics
 from ..files import OutputError, make_folder, move, open_for_writing, write_file
 from ..terminal import processors
 from ..words import nearest_word
+from .builders import BuildFault
 from .digest import digest, digest_of_build, digest_of_deck, digest_of_files
 from .errors import compare_observation
 from .judge import check_bounds, judge_stability, measured_orders
@@ -115,21 +116,31 @@ class Verification:
 
     def scene_of(self, run: PlannedRun) -> str:
         """Digest of all that the deck of a run is made of; blank where the deck is given."""
-        scene = self.suite.cases[run.of_case].scene
-        if scene is None:
+        case = self.suite.cases[run.of_case]
+        if not case.is_made:
             return ""
-        if scene not in self.scenes:
-            self.scenes[scene] = digest_of_files(scene_files(scene))
-        return digest(self.build, self.scenes[scene], scene.name, *(f"{name}={value}" for name, value in run.parameters.items()), run.keywords)
+        source, function = (case.build.file, case.build.function) if case.build else (case.scene or Path(), "")
+        if source not in self.scenes:
+            self.scenes[source] = digest_of_files([source] if case.build else scene_files(source))
+        return digest(self.build, self.scenes[source], source.name + function, *(f"{name}={value}" for name, value in run.parameters.items()), run.keywords)
 
     def generate(self, run: PlannedRun, deck: Path) -> list[str]:
-        """Writes the deck of a run of a scene, unless an earlier call has made the same one; returns what is wrong."""
-        folder = self.options.folder / run.folder
-        before = None if self.options.fresh else read_record(folder)
+        """Writes the deck of a run of a scene or builder, unless an earlier call has made the same one; returns what is wrong."""
+        folder, case = self.options.folder / run.folder, self.suite.cases[run.of_case]
+        before = None if self.options.fresh or case.build else read_record(folder)  # a deck is built in no time
         if self.options.stopped() or (before is not None and before.scene == self.scene_of(run)
                                       and before.key == self.key_of(run, folder / "deck.k")):
             return []
-        words = [str(self.options.executable), "generate", str(self.suite.cases[run.of_case].scene), "-o", str(deck)]
+        if case.build:
+            try:
+                write_file(deck, case.build.deck(run.parameters))
+            except BuildFault as fault:
+                return [f"error: {fault}"]
+            run.generated = deck
+            if run.keywords:
+                _add_keywords(deck, run.keywords)
+            return []
+        words = [str(self.options.executable), "generate", str(case.scene), "-o", str(deck)]
         for name, value in run.parameters.items():
             words += ["--param", f"{name}={value}"]
         try:
@@ -159,7 +170,7 @@ class Verification:
             record = None if self.options.fresh else read_record(run.folder)
             if record is not None and record.key != run.key:
                 record = None
-            if case.scene and run.generated is None and record is None:
+            if case.is_made and run.generated is None and record is None:
                 diagnostics.error(run.folder, "another call has changed the folder meanwhile", "call again")
                 raise Refused
             if run.generated:

@@ -66,7 +66,7 @@ def _take_limits(stability: Stability, variables: Variables, run: RunResult) -> 
     spacing = variables.get("dx", 0.0)
     penetration = numbers.penetration / spacing if spacing > 0 else numbers.penetration
     names = [*OUTCOMES, *(o.name for o in run.observed)]
-    values = [numbers.residual, numbers.ratio, numbers.leaked, penetration, numbers.steps,
+    values = [numbers.residual, numbers.error, numbers.ratio, numbers.leaked, penetration, numbers.steps,
               *(o.value if o.found and o.value is not None else math.nan for o in run.observed)]
     for limit in stability.limits:
         if run.verdict > Verdict.degraded:

@@ -4,10 +4,14 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import IntEnum
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..diagnostics import Location
+
+if TYPE_CHECKING:
+    from .builders import Builder
 
 Parameters = dict[str, str]  # NAME: VALUE, handed to the scene or deck as --param; numbers or expressions
 Variables = dict[str, float]  # what expressions may name, with its values in a run
@@ -106,13 +110,14 @@ class Stability:
 
 @dataclass
 class Case:
-    """Runs of a scene or a deck."""
+    """Runs of a scene, of a deck, or of decks that a function makes."""
 
     name: str = ""
     title: str = ""
     about: str = ""
     scene: Path | None = None
     deck: Path | None = None
+    build: Builder | None = None
     parameters: Parameters = field(default_factory=dict)
     resolution: str = ""  # name of the swept parameter; blank: none
     resolutions: list[str] = field(default_factory=list)
@@ -126,6 +131,11 @@ class Case:
     picture_at: str = ""
     picture_where: str = ""
     where: Location = field(default_factory=Location)
+
+    @property
+    def is_made(self) -> bool:
+        """Whether the deck of a run is written by this program."""
+        return self.deck is None
 
 
 @dataclass
@@ -168,7 +178,8 @@ class Observed:
 class RunNumbers:
     """What limits of stability cases may name."""
 
-    residual: float = 0.0
+    residual: float = 0.0  # of the energy balance over what passed through
+    error: float = 0.0  # energy from nowhere over what the scene held and passed
     ratio: float = 0.0
     leaked: float = 0.0
     penetration: float = 0.0

@@ -5,10 +5,10 @@ import re
 from dataclasses import dataclass, field
 
 # What limits of stability cases may name besides observations.
-OUTCOMES = ["residual", "ratio", "leaked", "penetration", "steps"]
+OUTCOMES = ["residual", "error", "ratio", "leaked", "penetration", "steps"]
 
 # So fixed a form leaves a division a division: `global/total/2`.
-_HISTORY = re.compile(r"(?<!\w)(global|(?:parts|contacts|rigid_bodies|particles)/\d+)/\w+(?:\.([xyz])(?!\w))?", re.ASCII)
+_HISTORY = re.compile(r"(?<!\w)(global|(?:parts|contacts|rigid_bodies|particles|nodes)/\d+)/\w+(?:\.([xyz])(?!\w))?", re.ASCII)
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def plan_runs(suite: Suite, generate: Generate, at_once: int, diagnostics: Diagn
 
     def prepare(number: int) -> list[str]:
         run = runs[number]
-        return generate(run, number) if suite.cases[run.of_case].scene else []
+        return generate(run, number) if suite.cases[run.of_case].is_made else []
 
     with ThreadPoolExecutor(max(1, at_once)) as pool:
         faults = list(pool.map(prepare, range(len(runs))))

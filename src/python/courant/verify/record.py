@@ -84,7 +84,7 @@ def _take_summary(summary: dict[str, Any], out: RunResult) -> None:
     energy = summary.get("energy")
     throughput, residual = _value(energy, "throughput", 0.0), abs(_value(energy, "residual", 0.0))
     out.numbers = RunNumbers(residual=residual / throughput if throughput > 0 else math.nan if residual > 0 else 0.0,
-        ratio=_value(energy, "ratio", math.nan), leaked=_value(summary, "leaked_particles", 0.0),
+        error=abs(_value(energy, "error", math.nan)), ratio=_value(energy, "ratio", math.nan), leaked=_value(summary, "leaked_particles", 0.0),
         penetration=_value(summary, "max_penetration", 0.0), steps=float(out.steps))
     if out.termination == "normal" and not math.isfinite(_value(energy, "total", math.nan)):
         out.verdict, out.reason = Verdict.broken, "it ended normally, but its energy is not finite"

@@ -75,7 +75,7 @@ def _run(run: RunResult) -> dict[str, Any]:
 def _case(case: CaseResult) -> dict[str, Any]:
     d = case.definition
     return _map(name=d.name, title=d.title, about=d.about, scene=str(d.scene) if d.scene else None,
-        deck=None if d.scene else str(d.deck or ""), runs=[_run(run) for run in case.runs],
+        build=f"{d.build.file}:{d.build.function}" if d.build else None, deck=str(d.deck) if d.deck else None, runs=[_run(run) for run in case.runs],
         orders=[_map(setting=m.setting, observation=m.observation, order=m.order) for m in case.orders],
         checks=[_map(setting=c.setting, observation=c.observation, what=c.what, bound=float(c.bound),
                      measured=float(c.measured), met=c.met) for c in case.checks])

@@ -9,6 +9,7 @@ from ..diagnostics import Diagnostics
 from ..expressions import ExpressionFault, evaluate
 from ..scene.parameters import ParameterReader
 from ..yaml_map import is_map
+from .builders import BuildFault
 from .model import Case, Parameters, Variables
 
 
@@ -37,9 +38,14 @@ def scene_values(file: Path, overrides: Mapping[str, str]) -> Variables | None:
 
 
 def parameter_values(case: Case, overrides: Parameters) -> Variables | None:
-    """Values of the parameters of a case: of a scene all it has; of a deck, the overrides that are numbers; and pi."""
+    """Values of the parameters of a case: of a scene or builder all it has; of a deck, the overrides that are numbers; and pi."""
     if case.scene is not None:
         return scene_values(case.scene, overrides)
+    if case.build is not None:
+        try:
+            return case.build.values(overrides)
+        except BuildFault:
+            return None
     out: Variables = {"pi": math.pi}
     for name, text in overrides.items():
         try:

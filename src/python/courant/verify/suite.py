@@ -7,17 +7,30 @@ from pathlib import Path
 from typing import Any
 
 from ..diagnostics import Diagnostics
+from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, YamlMap, as_flag, is_map, is_scalar, load_yaml, scalar_text
+from .builders import Builder
 from .model import Case, Limit, Observation, Parameters, Reference, Setting, Stability, Suite
 from .reference import read_table
 from .registry import KINDS, norm, reduction, take
 from .suite_check import CheckedExpression, check_case, check_observation
 
-_COLUMNS = ("csv_x", "csv_y", "scale_x", "scale_y", "offset_x", "offset_y")
-_OF_CASE = ("name", "title", "about", "scene", "deck", "parameters", "resolution", "resolutions", "size", "settings", "observations", "stability",
-            "time_limit", "picture_of", "picture_title", "picture_at", "picture_where")
-_OF_OBSERVATION = ("name", "title", "unit", "kind", "of", "where", "along", "bins", "reduce", "empty", "take", "align", "from", "to", "at", "x", "bed", "reference",
-                   "norm", "scale", "bound", "bound_settings", "least_order")
+_COLUMNS = keys_of_map("columns of a reference", "csv_x text, csv_y text, scale_x text, scale_y text, offset_x text, offset_y text")
+_SUITE = keys_of_map("suite", "title text, about text, time_limit number, cases [@case]!")
+_SETTING = keys_of_map("setting", "name text!, parameters map, resolutions list, keywords text")
+_REFERENCE = keys_of_map("reference", "formula text, csv text, finest flag, source text")
+_STABILITY = keys_of_map("stability", "sweep map, limits [@limit], must_be_stable text, must_stop text")
+_LIMIT = keys_of_map("limit", "name text!, value text!, at_most text!")
+_OF_CASE = keys_of_map(
+    "case",
+    "name text!, title text, about text, scene text, deck text, build text, parameters map, resolution text, resolutions list, size text, settings [@setting], "
+    "observations [@observation], stability @stability, time_limit number, picture_of text, picture_title text, picture_at text, picture_where text",
+)
+_OF_OBSERVATION = keys_of_map(
+    "observation",
+    "name text!, title text, unit text, kind text, of text, where text, along text, bins number, reduce text, empty number, take text, align number, "
+    "from text, to text, at text, x text, bed text, reference text|@reference, norm text, scale text, bound number, bound_settings list, least_order number",
+)
 
 
 def read_suite(file: Path, diagnostics: Diagnostics) -> Suite:
@@ -26,7 +39,7 @@ def read_suite(file: Path, diagnostics: Diagnostics) -> Suite:
     if root is None:
         return Suite(file)
     map_ = YamlMap(root, "suite", str(file), diagnostics)
-    map_.allow("title", "about", "time_limit", "cases")
+    map_.allow(*_SUITE)
     suite = Suite(file, map_.text("title") or file.stem, map_.text("about"))
     time_limit = map_.positive("time_limit", Case.time_limit)
     for node in map_.list("cases", required=True):
@@ -106,9 +119,9 @@ class _CaseReader:
         map_ = self.map
         map_.allow(*_OF_CASE)
         name = _word(map_, "[A-Za-z0-9_-]+", "letters, digits, _ and -")
-        out = Case(name, map_.text("title") or name, map_.text("about"), self.path(map_, "scene"), self.path(map_, "deck"), where=map_.where())
-        if is_map(map_.node) and map_.has("scene") == map_.has("deck"):
-            map_.error(map_.node, "a case has either a 'scene' or a 'deck'")
+        out = Case(name, map_.text("title") or name, map_.text("about"), self.path(map_, "scene"), self.path(map_, "deck"), self.builder(), where=map_.where())
+        if is_map(map_.node) and sum(map_.has(key) for key in ("scene", "deck", "build")) != 1:
+            map_.error(map_.node, "a case has one of 'scene', 'deck' and 'build'")
         out.parameters, out.resolution, out.resolutions = _parameters(map_), map_.text("resolution"), _texts(map_, "resolutions")
         out.time_limit, out.settings = map_.positive("time_limit", time_limit), self.settings()
         out.observations = [self.observation(map_.element(node, "observation")) for node in map_.list("observations")]
@@ -121,12 +134,23 @@ class _CaseReader:
         check_case(map_, out, self.noted, self.diagnostics)
         return out
 
+    def builder(self) -> Builder | None:
+        text = self.map.text("build")
+        if not text:
+            return None
+        name, _, function = text.rpartition(":")
+        file = Path(os.path.normpath(self.folder / name))
+        if not name or not function.isidentifier() or not file.is_file():
+            self.map.error(_at(self.map, "build"), f"'case.build': expected FILE.py:FUNCTION with a file that is there, got '{text}'", "paths count from the folder of the suite")
+            return None
+        return Builder(file, function)
+
     def settings(self) -> list[Setting]:
         out = []
         for entry in (self.map.element(node, "setting") for node in self.map.list("settings")):
-            entry.allow("name", "parameters", "resolutions", "keywords")
-            if entry.has("keywords") and not self.map.has("scene"):
-                entry.error(_at(entry, "keywords"), "'keywords' belong to a case with a 'scene'", "write the cards into the deck")
+            entry.allow(*_SETTING)
+            if entry.has("keywords") and self.map.has("deck"):
+                entry.error(_at(entry, "keywords"), "'keywords' belong to a case with a 'scene' or 'build'", "write the cards into the deck")
             out.append(Setting(entry.text("name", required=True), _parameters(entry), _texts(entry, "resolutions"), entry.text("keywords")))
         return out or [Setting("default")]
 
@@ -164,7 +188,7 @@ class _CaseReader:
         if is_scalar(node):
             return Reference("formula", self.expressions(map_, over, "reference")["reference"])
         entry = YamlMap(node, "reference", map_.file, self.diagnostics)
-        entry.allow("formula", "csv", "finest", *_COLUMNS, "source")
+        entry.allow(*_REFERENCE, *_COLUMNS)
         kinds = [key for key in ("formula", "csv", "finest") if entry.has(key)]
         if is_map(node) and len(kinds) != 1:
             entry.error(node, "a reference has one of 'formula', 'csv' and 'finest: true'")
@@ -188,7 +212,7 @@ class _CaseReader:
 
     def stability(self, map_: YamlMap, of: Case) -> Stability:
         out = Stability()
-        map_.allow("sweep", "limits", "must_be_stable", "must_stop")
+        map_.allow(*_STABILITY)
         sweep = map_.map("sweep")
         for name, key, _ in sweep.entries() if sweep else ():
             out.sweep.append((name, _texts(sweep or map_, name)))
@@ -199,7 +223,7 @@ class _CaseReader:
         if not out.sweep and len(of.settings) < 2 and not map_.has("sweep"):
             map_.error(map_.node, "a stability case needs a 'sweep' or several settings")
         for entry in (map_.element(node, "limit") for node in map_.list("limits")):
-            entry.allow("name", "value", "at_most")
+            entry.allow(*_LIMIT)
             out.limits.append(Limit(entry.text("name", required=True), **self.expressions(entry, "outcome", "value", "at_most", required=True)))
         out.must_be_stable = self.expressions(map_, "nothing", "must_be_stable", otherwise="1")["must_be_stable"]
         out.must_stop = self.expressions(map_, "nothing", "must_stop", otherwise="0")["must_stop"]

@@ -1,0 +1,127 @@
+"""Decks written by a program: meshes as arrays, cards as rows of values."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..files import write_file
+
+Value = int | float | str | None
+Map = Callable[[np.ndarray], np.ndarray]
+
+
+class Grid(NamedTuple):
+    """A regular mesh. `points` (n, 3) [L]; `cells` (m, corners): rows of `points`; `unit` (n, dimensions): where a point is in the unit cube, square or
+    line from which it was mapped."""
+
+    points: np.ndarray
+    cells: np.ndarray
+    unit: np.ndarray
+
+    def where(self, axis: int, value: float) -> np.ndarray:
+        """Rows of the points with this coordinate in the unit cube, (k,)."""
+        return np.flatnonzero(np.abs(self.unit[:, axis] - value) < 1e-9)
+
+    def nearest(self, *point: float) -> int:
+        """Row of the point nearest to coordinates in the unit cube."""
+        return int(np.argmin(np.linalg.norm(self.unit - np.array(point), axis=1)))
+
+
+_CORNERS = {1: [(0,), (1,)], 2: [(0, 0), (1, 0), (1, 1), (0, 1)],
+            3: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]}
+
+
+def grid(counts: Sequence[int], to: Map | Sequence[float]) -> Grid:
+    """Lines, quadrilaterals or hexahedra, so many along each direction, of the unit line, square or cube. `to` takes points there (n, dimensions) to
+    their positions (n, 3) [L]; or it is the size along each axis [L]. Points count along the first direction first."""
+    n = [int(count) for count in counts]
+    axes = np.meshgrid(*(np.linspace(0, 1, count + 1) for count in n), indexing="ij")
+    unit = np.stack([axis.ravel(order="F") for axis in axes], axis=1)
+    number = np.arange(len(unit)).reshape([count + 1 for count in n], order="F")
+    cells = np.stack([number[tuple(slice(o, o + count) for o, count in zip(corner, n))].ravel(order="F") for corner in _CORNERS[len(n)]], axis=1)
+    if callable(to):
+        points = to(unit)
+    else:
+        points = np.zeros((len(unit), 3))
+        points[:, : len(n)] = unit * np.array(to, dtype=float)[: len(n)]
+    return Grid(points, cells, unit)
+
+
+def _text(value: Value) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    return str(value)
+
+
+class DeckBuilder:
+    """Cards and meshes one after the other; `text()` is the deck. Values are separated by commas, so that no column counts."""
+
+    def __init__(self, title: str, end: float) -> None:
+        """`end`: ENDTIM [T], which may be changed later."""
+        self.end = end
+        self._lines = ["*KEYWORD", "*TITLE", title]
+        self._nodes, self._elements, self._sets = 0, 0, 0
+
+    def card(self, keyword: str, *rows: str | Sequence[Value]) -> DeckBuilder:
+        """A keyword and its cards: texts as they are, values with commas between; None is blank."""
+        self._lines.append(keyword)
+        self._lines += [row if isinstance(row, str) else ",".join([*map(_text, row), ""]) for row in rows]  # a comma after one value, too
+        return self
+
+    def nodes(self, points: np.ndarray, first: Sequence[int] = ()) -> np.ndarray:
+        """Adds nodes at positions (n, 3) [L]; their numbers, (n,). Rows `first` get the lowest ones, which then do not depend on the mesh."""
+        order = np.array([*first, *(k for k in range(len(points)) if k not in set(first))], dtype=int)
+        ids = np.empty(len(points), dtype=int)
+        ids[order] = self._nodes + 1 + np.arange(len(points))
+        self._nodes += len(points)
+        self.card("*NODE", *([int(ids[k]), *map(float, points[k])] for k in order))
+        return ids
+
+    def elements(self, kind: str, part: int, nodes: np.ndarray) -> np.ndarray:
+        """Adds elements of `kind` ("SOLID", "SHELL", "BEAM") with these numbers of nodes, (m, corners); their numbers, (m,)."""
+        ids = self._elements + 1 + np.arange(len(nodes))
+        self._elements += len(nodes)
+        self.card(f"*ELEMENT_{kind}", *([int(i), part, *map(int, row)] for i, row in zip(ids, nodes)))
+        return ids
+
+    def mesh(self, kind: str, part: int, of: Grid, first: Sequence[int] = ()) -> np.ndarray:
+        """Nodes and elements of a grid; numbers of its nodes, (n,); `first` as of `nodes`."""
+        ids = self.nodes(of.points, first)
+        self.elements(kind, part, ids[of.cells])
+        return ids
+
+    def node_set(self, ids: np.ndarray) -> int:
+        """Its number."""
+        self._sets += 1
+        self.card("*SET_NODE_LIST", [self._sets], *([int(i) for i in ids[k : k + 8]] for k in range(0, len(ids), 8)))
+        return self._sets
+
+    def hold(self, ids: np.ndarray, directions: str) -> DeckBuilder:
+        """Holds nodes in "x", "y", "z", and against turns "X", "Y", "Z"."""
+        return self.card("*BOUNDARY_SPC_SET", [self.node_set(ids), 0, *(int(d in directions) for d in "xyzXYZ")])
+
+    def curve(self, number: int, points: Sequence[tuple[float, float]]) -> int:
+        """*DEFINE_CURVE; its number."""
+        self.card("*DEFINE_CURVE", [number], *points)
+        return number
+
+    def history(self, ids: Sequence[int] | np.ndarray, interval: float) -> DeckBuilder:
+        """Motion of nodes, energies and others at an interval [T]."""
+        self.card("*DATABASE_HISTORY_NODE", *([int(i) for i in ids[k : k + 8]] for k in range(0, len(ids), 8)))
+        self.card("*DATABASE_NODOUT", [interval])
+        return self.card("*DATABASE_GLSTAT", [interval])
+
+    def text(self) -> str:
+        return "\n".join([*self._lines, "*CONTROL_TERMINATION", f"{float(self.end)!r},", "*END", ""])
+
+    def write(self, file: str | PathLike[str]) -> Path:
+        """Raises OutputError."""
+        path = Path(file)
+        write_file(path, self.text())
+        return path

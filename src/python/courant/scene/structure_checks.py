@@ -1,0 +1,68 @@
+"""What deformable parts of a scene must not be: in a wall, in a body or in each other."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..diagnostics import Diagnostics
+from ..words import shortest
+from .basin import Basin
+from .meshes import SOLIDS
+from .shapes import Shape
+from .structures import Structure
+
+_DEPTH = 0.01  # of the spacing of particles: what is less deep touches
+
+
+def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
+    """Refuses nodes that begin in closed walls, bodies and other solids, but for those that are held, and parts that reach through walls of the box."""
+    depth, dim = _DEPTH * basin.spacing, basin.dim
+    solid = {id(one): one.outline(dim) for one in basin.structures if one.mesh.kind == SOLIDS}
+    for k, one in enumerate(basin.structures):
+        free = np.delete(one.mesh.points, one.fixed, axis=0)
+        _check_box(one, free, basin, depth, diagnostics)
+        for other in basin.solids:
+            if not other.closed:
+                continue
+            name = f"'{other.shape.name}'" if other.shape.name else "a wall or body"
+            found = _inside(other.shape, free, depth)
+            if not len(found) and id(one) in solid:
+                found = _inside(solid[id(one)], other.shape.points, depth)
+            _report(one, found, name, dim, diagnostics)
+        for other in basin.structures[:k]:
+            found = _inside(solid[id(other)], free, depth) if id(other) in solid else free[:0]
+            if not len(found) and id(one) in solid:
+                found = _inside(solid[id(one)], np.delete(other.mesh.points, other.fixed, axis=0), depth)
+            _report(one, found, f"'{other.title}'", dim, diagnostics)
+
+
+def _inside(shape: Shape, x: np.ndarray, depth: float) -> np.ndarray:
+    """Those of points (n, 3) that are deeper in a shape than `depth` along each axis [L]."""
+    inside = shape.contains(x)
+    for axis in range(shape.dim):
+        for sign in (-1.0, 1.0):
+            some = np.flatnonzero(inside)
+            moved = x[some].copy()
+            moved[:, axis] += sign * depth
+            inside[some] = shape.contains(moved)
+    found: np.ndarray = x[inside]
+    return found
+
+
+def _report(one: Structure, found: np.ndarray, name: str, dim: int, diagnostics: Diagnostics) -> None:
+    if not len(found):
+        return
+    at = ", ".join(shortest(round(float(v), 9)) for v in found[0, :dim])
+    nodes = "a point" if len(found) == 1 else f"{len(found)} points"
+    diagnostics.error(one.where, f"'{one.title}' and {name} overlap: {nodes} of one {'is' if len(found) == 1 else 'are'} inside of the other, the first at ({at})",
+                      "let one end at the surface of the other, or hold the nodes that are inside by 'fix'")
+
+
+def _check_box(one: Structure, free: np.ndarray, basin: Basin, depth: float, diagnostics: Diagnostics) -> None:
+    if not basin.box or not len(free):
+        return
+    for k in range(basin.dim):
+        ends = basin.box[0][k], basin.box[1][k]
+        low, high = float(free[:, k].min()), float(free[:, k].max())
+        if (low < ends[0] - depth and basin.sides[2 * k] not in basin.open) or (high > ends[1] + depth and basin.sides[2 * k + 1] not in basin.open):
+            diagnostics.error(one.where, f"'{one.title}' reaches from {low:g} to {high:g} along {'xyz'[k]}, through a wall of the box from {ends[0]:g} to {ends[1]:g}",
+                              "let it end at the wall, or hold what is outside by 'fix'")

@@ -1,0 +1,215 @@
+"""Decks of structures.yaml: structures whose answer is known, by any element.
+
+Loads that stay are put on along a smooth curve in a third of the time, with damping near that of the lowest frequency, so that the end is at rest.
+"""
+from __future__ import annotations
+
+import numpy as np
+from courant import DeckBuilder, grid
+
+SETTLING = 12.0  # periods over 2 pi until critical damping has left 1e-4 of a motion
+
+
+def section(deck: DeckBuilder, kind: str, elform: int, thickness: float, nip: int) -> None:
+    if kind == "SHELL":
+        deck.card("*SECTION_SHELL", [1, elform, 5 / 6, nip], [thickness] * 4)
+    else:
+        deck.card("*SECTION_SOLID", [1, elform])
+
+
+def part(deck: DeckBuilder, title: str, ihq: int, qm: float) -> None:
+    """Part 1 of section 1 and material 1, with hourglass control where IHQ is given."""
+    deck.card("*PART", title, [1, 1, 1, 0, 1 if ihq else 0])
+    if ihq:
+        deck.card("*HOURGLASS", [1, ihq, qm])
+
+
+def settle(deck: DeckBuilder, omega: float, number: int = 90) -> float:
+    """Damping of a structure of lowest frequency `omega` [1/T], and a curve (its number) that rises smoothly to 1. Gives the end [T]."""
+    end = 1.5 * SETTLING / omega
+    t = np.linspace(0, end / 3, 21)
+    deck.curve(number, [*((float(a), 0.5 - 0.5 * float(np.cos(np.pi * a / t[-1]))) for a in t), (2 * end, 1.0)])
+    deck.card("*DAMPING_GLOBAL", [0, 2 * omega])
+    deck.end = end
+    return end
+
+
+def load(deck: DeckBuilder, nodes: np.ndarray, direction: int, force: float, weights: np.ndarray | None = None) -> None:
+    """A force in all, shared by nodes, by curve 90; `direction`: 1, 2, 3."""
+    share = np.full(len(nodes), 1 / len(nodes)) if weights is None else weights / weights.sum()
+    deck.card("*LOAD_NODE_POINT", *([int(n), direction, 90, float(force * w)] for n, w in zip(nodes, share)))
+
+
+def of_an_edge(n: int) -> np.ndarray:
+    """Shares of a uniform load on an edge of n elements."""
+    out = np.ones(n + 1)
+    out[[0, -1]] = 0.5
+    return out
+
+
+def cantilever(n: int = 16, kind: str = "SOLID", elform: int = 1, ihq: int = 0, qm: float = 0.1, nip: int = 3, across: int = 2, nu: float = 0.0,
+               L: float = 1.0, h: float = 0.1, E: float = 2.1e11, rho: float = 7850.0, P: float = 1000.0) -> DeckBuilder:
+    """A square bar that is clamped at one end and bent by a force P at the other; `across` elements over its height and width."""
+    deck = DeckBuilder("cantilever", 1)
+    omega = 3.516 * np.sqrt(E * h**2 / 12 / rho) / L**2
+    part(deck, "bar", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, nu])
+    if kind == "BEAM":
+        deck.card("*SECTION_BEAM", [1, elform, 5 / 6, 2, 0], [h, h, h, h] if elform == 1 else [h * h, h**4 / 12, h**4 / 12, 0.1406 * h**4, 5 / 6 * h * h])
+        mesh = grid([n], [L])
+        ids = deck.nodes(mesh.points, [n])
+        third = deck.nodes(np.array([[0.5 * L, 0, L]]))
+        deck.elements("BEAM", 1, np.column_stack([ids[mesh.cells], np.full(n, third[0])]))
+        clamped, end, weights = ids[:1], ids[-1:], None
+    elif kind == "SHELL":
+        section(deck, kind, elform, h, nip)
+        mesh = grid([n, across], [L, h])
+        ids = deck.mesh(kind, 1, mesh, [mesh.nearest(1, 0.5)])
+        clamped, end, weights = ids[mesh.where(0, 0)], ids[mesh.where(0, 1)], of_an_edge(across)
+    else:
+        section(deck, kind, elform, h, nip)
+        mesh = grid([n, across, across], [L, h, h])
+        ids = deck.mesh(kind, 1, mesh, [mesh.nearest(1, 0.5, 0.5)])
+        clamped, end, weights = ids[mesh.where(0, 0)], ids[mesh.where(0, 1)], np.outer(of_an_edge(across), of_an_edge(across)).ravel()
+    deck.hold(clamped, "xyzXYZ" if kind != "SOLID" else "xyz")
+    finish = settle(deck, omega)
+    load(deck, end, 3, P, weights)
+    return deck.history([1], finish / 200)
+
+
+def cook(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
+    """Cook's membrane of E 1, thickness 1, nu 1/3 under a thousandth of its usual load, along its free edge."""
+    deck = DeckBuilder("Cook's membrane", 1)
+    section(deck, "SHELL", elform, 1.0, 2)
+    part(deck, "membrane", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, 1.0, 1.0, 1 / 3]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        low, high = 44 * u[:, 0], 44 + 16 * u[:, 0]
+        return np.column_stack([48 * u[:, 0], low + u[:, 1] * (high - low), np.zeros(len(u))])
+
+    mesh = grid([n, n], mapped)
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(1, 0.5)])
+    clamped = mesh.where(0, 0)
+    deck.hold(ids, "zXY").hold(ids[clamped], "xyZ")
+    end = settle(deck, 0.011)
+    load(deck, ids[mesh.where(0, 1)], 2, 1e-3, of_an_edge(n))
+    return deck.history([1], end / 200)
+
+
+def roof(n: int = 8, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
+    """A quarter of the roof of Scordelis and Lo on diaphragms, under a hundredth of its weight of 90 per area: the reference is linear."""
+    R, L, t, angle, rho = 25.0, 50.0, 0.25, np.radians(40), 360.0
+    deck = DeckBuilder("Scordelis-Lo roof", 1)
+    section(deck, "SHELL", elform, t, 2)
+    part(deck, "roof", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, 4.32e8, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh = grid([n, n], lambda u: np.column_stack([R * np.sin(angle * u[:, 0]), 0.5 * L * u[:, 1], R * np.cos(angle * u[:, 0])]))
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(1, 1)])
+    deck.hold(ids[mesh.where(1, 0)], "xz").hold(ids[mesh.where(1, 1)], "yXZ").hold(ids[mesh.where(0, 0)], "xYZ")
+    end = settle(deck, 1.8)
+    deck.card("*LOAD_BODY_Z", [90, 0.9 / (rho * t)])  # acts along -z
+    return deck.history([1], end / 200)
+
+
+def hemisphere(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
+    """A quarter of a hemisphere with a hole of 18 degrees, drawn apart along x and pressed together along y by forces of 2."""
+    R, t, rho = 10.0, 0.04, 1.0
+    deck = DeckBuilder("hemisphere with a hole", 1)
+    section(deck, "SHELL", elform, t, 2)
+    part(deck, "shell", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, 6.825e7, 0.3]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        around, up = 0.5 * np.pi * u[:, 0], np.radians(72) * u[:, 1]
+        return R * np.column_stack([np.cos(around) * np.cos(up), np.sin(around) * np.cos(up), np.sin(up)])
+
+    mesh = grid([n, n], mapped)
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(0, 0), mesh.nearest(1, 0)])
+    deck.hold(ids[mesh.where(0, 0)], "yXZ").hold(ids[mesh.where(0, 1)], "xYZ")
+    first, second = ids[mesh.nearest(0, 0)], ids[mesh.nearest(1, 0)]
+    deck.hold(np.array([ids[mesh.nearest(0.5, 1)]]), "z")
+    end = settle(deck, 2.3)
+    load(deck, np.array([first]), 1, 1.0)
+    load(deck, np.array([second]), 2, -1.0)
+    return deck.history([1, 2], end / 200)
+
+
+def twisted(n: int = 24, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, direction: int = 3) -> DeckBuilder:
+    """A strip that is twisted by 90 degrees from its clamped end on, with a unit force at the other in the plane of that end (3) or across it (2)."""
+    L, w, t = 12.0, 1.1, 0.32
+    deck = DeckBuilder("twisted beam", 1)
+    section(deck, kind, elform, t, 2)
+    part(deck, "strip", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, 1.0, 2.9e7, 0.22]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    across = max(n // 6, 1)
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        turn = 0.5 * np.pi * u[:, 0]
+        y, z = w * (u[:, 1] - 0.5), t * (u[:, 2] - 0.5) if u.shape[1] == 3 else np.zeros(len(u))
+        return np.column_stack([L * u[:, 0], y * np.cos(turn) - z * np.sin(turn), y * np.sin(turn) + z * np.cos(turn)])
+
+    mesh = grid([n, across] if kind == "SHELL" else [n, across, 2], mapped)
+    ids = deck.mesh(kind, 1, mesh, [mesh.nearest(*([1, 0.5] if kind == "SHELL" else [1, 0.5, 0.5]))])
+    deck.hold(ids[mesh.where(0, 0)], "xyzXYZ" if kind == "SHELL" else "xyz")
+    end = settle(deck, 10.0)
+    edge = of_an_edge(across)
+    load(deck, ids[mesh.where(0, 1)], direction, 1.0, edge if kind == "SHELL" else np.outer(of_an_edge(2), edge).ravel())
+    return deck.history([1], end / 200)
+
+
+def plate(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, a: float = 1.0, h: float = 0.01, E: float = 2.1e11, rho: float = 7850.0,
+          nu: float = 0.3) -> DeckBuilder:
+    """A square plate, simply supported, that begins to swing in its first mode."""
+    deck = DeckBuilder("plate", 0.06)
+    section(deck, "SHELL", elform, h, 3)
+    part(deck, "plate", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, nu]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh = grid([n, n], [a, a])
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(0.5, 0.5)])
+    rim = np.unique(np.concatenate([mesh.where(k, end) for k in (0, 1) for end in (0, 1)]))
+    deck.hold(ids[rim], "xyz")
+    speed = 0.01 * np.prod(np.sin(np.pi * mesh.unit), axis=1)
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.0, 0.0, float(v)] for i, v in zip(ids, speed) if v > 1e-9))
+    return deck.history([1], 1e-4)
+
+
+def taylor(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1) -> DeckBuilder:
+    """A copper rod of 3.2 mm radius and 32.4 mm length that strikes a rigid wall with 227 m/s; n elements over its diameter."""
+    R, L = 3.2e-3, 32.4e-3
+    deck = DeckBuilder("Taylor bar", 8e-5)
+    section(deck, "SOLID", elform, 0, 0)
+    part(deck, "rod", ihq, qm)
+    deck.card("*MAT_PLASTIC_KINEMATIC", [1, 8930.0, 117e9, 0.35, 400e6, 100e6, 1.0])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        x, y = 2 * u[:, 0] - 1, 2 * u[:, 1] - 1  # a square to a disc
+        return np.column_stack([R * x * np.sqrt(1 - y**2 / 2), R * y * np.sqrt(1 - x**2 / 2), L * u[:, 2]])
+
+    mesh = grid([n, n, int(round(4.5 * n))], mapped)
+    ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(0.5, 0.5, 1), mesh.nearest(1, 0.5, 0)])
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.0, 0.0, -227.0] for i in ids))
+    deck.card("*RIGIDWALL_PLANAR", [0], [0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    return deck.history([1, 2], 1e-6)
+
+
+def tube(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1, nu: float = 0.3, a: float = 1.0, b: float = 2.0, E: float = 2.1e11,
+         p: float = 1e7) -> DeckBuilder:
+    """A quarter of a thick tube under pressure from inside, strained in the plane; n elements over the wall."""
+    deck, rho = DeckBuilder("thick tube", 1), 7850.0
+    section(deck, "SOLID", elform, 0, 0)
+    part(deck, "tube", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, nu])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        r, turn = a + (b - a) * u[:, 0], 0.5 * np.pi * u[:, 1]
+        return np.column_stack([r * np.cos(turn), r * np.sin(turn), 0.1 * u[:, 2]])
+
+    mesh = grid([n, 2 * n, 1], mapped)
+    ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(0, 0, 0)])
+    deck.hold(ids, "z").hold(ids[mesh.where(1, 0)], "y").hold(ids[mesh.where(1, 1)], "x")
+    end = settle(deck, float(np.sqrt(E / rho) / b))
+    inner = [ids[cell[[0, 4, 7, 3]]] for cell in mesh.cells if mesh.unit[cell[0], 0] < 1e-9]
+    deck.card("*SET_SEGMENT", [1], *([int(k) for k in corners] for corners in inner))
+    deck.card("*LOAD_SEGMENT_SET", [1, 90, p])
+    return deck.history([1], end / 200)
