@@ -49,7 +49,7 @@ def unshown(project, pages):
 
 def check(project):
     faults = []
-    pages = [p for p in [project / "README.md", *sorted((project / "docs").glob("*.md"))] if p.exists()]
+    pages = [p for p in [project / "README.md", *sorted((project / "docs").rglob("*.md"))] if p.exists()]
     pages += sorted((project / "keyword_decks").glob("*/README.md"))
     for page in pages:
         fenced = False  # in a block of code, where [](...) is no link

@@ -166,13 +166,12 @@ std::string needs_text(const Deck& deck, const DeckFacts& facts) {
                        [&](const ElementFacts& e) { return e.kind == kind && e.count + e.unread > 0; });
   };
   const bool solids = holds("solids"), particles = holds("SPH particles") || has("DEFINE_SPH_INJECTION");
-  // rigid bodies of shells may be all that moves
-  const bool bodies = !particles && !solids && holds("shells") && has("MAT_RIGID");
+  const bool frames = holds("shells") || holds("beams") || holds("springs and dampers");
   std::vector<std::pair<const char*, const char*>> missing;
   if (facts.nodes == 0) missing.emplace_back("*NODE", "coordinates");
-  if (!particles && !solids && !bodies)
+  if (!particles && !solids && !frames)
     missing.emplace_back("*ELEMENT_SPH or *ELEMENT_SOLID", "particles, or solids");
-  const bool of_particles = particles || (!solids && !bodies);
+  const bool of_particles = particles || (!solids && !frames);
   if (!has("PART")) missing.emplace_back("*PART", "what the elements are made of");
   if (of_particles && !has("SECTION_SPH")) missing.emplace_back("*SECTION_SPH", "smoothing length");
   if (solids && !has("SECTION_SOLID")) missing.emplace_back("*SECTION_SOLID", "formulation of the solids");

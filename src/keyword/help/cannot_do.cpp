@@ -21,7 +21,7 @@ constexpr const char* cannot_do_introduction =
     "the page says that it gives a warning.\n\n"
     "At large: steps are explicit, without implicit or thermal analysis; one computer with threads that "
     "share memory, without MPI "
-    "and without GPUs; results are VTK, HDF5 and LS-DYNA's text files, binout and d3plot.\n";
+    "and without GPUs; results are VTK, HDF5 and, of LS-DYNA's, text files, binout and d3plot.\n";
 
 using NamesByReason = std::map<std::string, std::vector<std::string>>;
 

@@ -282,8 +282,8 @@ def test_a_kind_of_ones_own(folder: Path) -> None:
         del KINDS.functions["states"], KINDS.functions["lost"]
 
 
-def test_the_functions_of_the_user_guide(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
-    guide = (Path(__file__).resolve().parents[3] / "docs" / "user_guide.md").read_text()
+def test_the_functions_of_the_page_on_suites(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
+    guide = (Path(__file__).resolve().parents[3] / "docs" / "suites.md").read_text()
     found = re.search(r"```\n(import numpy as np\nfrom courant\.verify.*?)```", guide, re.S)
     assert found
     own = tmp_path_factory.mktemp("own") / "own.py"

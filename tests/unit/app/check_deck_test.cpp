@@ -71,6 +71,16 @@ TEST(CheckDeck, NeedsAreWhatIsRefusedAndWhatIsMissing) {
             "  not in the deck: *CONTROL_TERMINATION (end time)\n");
 }
 
+TEST(CheckDeck, ShellsNeedNoParticles) {
+  const ReadDeck read = read_in_memory(in_memory(
+      Files{{"deck.k",
+             "*KEYWORD\n*NODE\n       1\n*PART\nstrip\n         1         1         1\n*AIRBAG_ALE\n"
+             "*ELEMENT_SHELL\n       1       1       1       1       1       1\n*CONTROL_TERMINATION\n       "
+             "1.0\n*END\n"}}));
+  EXPECT_EQ(needs_text(read.deck, gather_facts(read.deck)),
+            "What a run would need\n  not supported: airbags: *AIRBAG_ALE\n");
+}
+
 TEST(CheckDeck, NeedsOfSolidsAreNotThoseOfParticles) {
   const ReadDeck read = read_in_memory(in_memory(Files{
       {"deck.k",
