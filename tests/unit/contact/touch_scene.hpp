@@ -1,5 +1,6 @@
 #pragma once
 // A node and a face that it touches, for tests.
+#include <functional>
 #include <memory>
 
 #include "contact/nodes/node_contact.hpp"
@@ -17,6 +18,8 @@ struct TouchScene {
   bool held = true;
   Real depth = 2;     ///< of the solid
   unsigned pass = 0;  ///< 1: the node is of SURFB
+  WallBodies bodies;
+  std::function<void(ContactSides&)> change = [](ContactSides&) {};  ///< of the sides, before they touch
 
   void build() {
     Nodes& nodes = world.nodes;
@@ -38,7 +41,8 @@ struct TouchScene {
     ContactNode node;
     node.node = 4, node.last = 1, node.pass = pass;
     sides.nodes = {node};
-    contact = std::make_shared<NodeContact>(law, std::move(sides), WallBodies{}, 1, world);
+    change(sides);
+    contact = std::make_shared<NodeContact>(law, std::move(sides), bodies, 1, world);
   }
   /// Moves the free nodes on for dt and finds the forces.
   void step(Real dt) {

@@ -9,7 +9,7 @@
 
 #include "rigid/bodies/rigid.hpp"
 #include "rigid/joints/joints.hpp"
-#include "solid_decks.hpp"
+#include "../structures/solid_decks.hpp"
 
 namespace courant::test {
 
