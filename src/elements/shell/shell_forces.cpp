@@ -17,6 +17,7 @@
 #include "elements/shell/flow_stress.hpp"
 #include "elements/shell/layer_axes.hpp"
 #include "elements/shell/layers.hpp"
+#include "elements/shell/shell_faults.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "state/reports.hpp"
@@ -152,7 +153,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     if (scaled_) scaled_->grow(world);
     if (!control_.thins) return;
     for (Index e = 0; e < group_.size(); ++e)
-      if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e))) stop_for_thickness(e, clock);
+      if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e)))
+        stop_for_thickness(group_, part_id_, e, state_.thickness[e], clock);
   }
 
   Limit limit(const World&, const Clock&) override {
@@ -396,16 +398,6 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   Real total_of_dead(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
   }
-  [[noreturn]] void stop_for_thickness(Index e, const Clock& clock) const {
-    const ReadsForMessage unchecked;
-    throw RunError(
-        fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}", group_.id[e],
-                    part_id_, state_.thickness[e], clock.t, clock.cycle),
-        std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element,
-        "it has been drawn to nothing: let it fail (*MAT_ADD_EROSION, FAIL of its material), or keep "
-        "its thickness (ISTUPD 0 of *CONTROL_SHELL)");
-  }
-
   /// What is at a point through the thickness.
   struct Layer {
     std::shared_ptr<StrengthLaw> law;
