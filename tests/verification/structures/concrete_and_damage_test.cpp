@@ -17,6 +17,8 @@ using test::ShellDeck;
 using test::simulation_of;
 using test::SolidDeck;
 
+namespace concrete_and_damage_test {
+
 namespace {
 
 /// E 947.4, strength in tension about 0.2; fracture energies 0.02, 2.
@@ -145,3 +147,5 @@ TEST(ConcreteAndDamage, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
     test::expect_same_bits(deck.text(100), 60, 25);
   }
 }
+
+}  // namespace concrete_and_damage_test
