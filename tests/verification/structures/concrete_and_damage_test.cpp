@@ -17,6 +17,8 @@ using test::ShellDeck;
 using test::simulation_of;
 using test::SolidDeck;
 
+namespace concrete_and_damage_test {
+
 namespace {
 
 /// E 947.4, strength in tension about 0.2; fracture energies 0.02, 2.
@@ -67,7 +69,8 @@ Real strain_at_failure(const std::string& card, Real velocity) {
 
 }  // namespace
 
-// Torn cubes: the energy is that of the peak and the fracture energy over the area, for each row of elements.
+// Torn cubes: the energy is that of the peak and the fracture energy over the area, of one element and of 2 x
+// 2 x 2.
 TEST(ConcreteAndDamage, ConcreteTakesItsFractureEnergy) {
   const Real K = 500, G = 400, E = 9 * K * G / (3 * K + G), root3 = std::sqrt(3.0);
   Real low = 0, high = 1;
@@ -85,14 +88,16 @@ TEST(ConcreteAndDamage, ConcreteTakesItsFractureEnergy) {
     }
     EXPECT_NEAR(top, low, 0.03 * low);
     sample_energy(s->world(), s->clock());
-    EXPECT_NEAR(s->world().energy.internal, n * 0.02 + low * low / (2 * E), 0.03 * n * 0.02) << n;
+    // of two rows one tears, after the other has begun to
+    const Real energy = s->world().energy.internal - low * low / (2 * E);
+    EXPECT_NEAR(energy, 0.02, n == 1 ? 0.03 * 0.02 : 0.2 * 0.02) << n;
     EXPECT_LT(test::energy_error(*s), 0.01);
   }
 }
 
 // Damaged beyond 0.99 and longer than ERODE - 1 an element goes.
 TEST(ConcreteAndDamage, ConcreteErodes) {
-  EXPECT_NEAR(strain_at_failure(concrete_card(0, 1.8), 0.002), 0.8, 0.02);
+  EXPECT_NEAR(strain_at_failure(concrete_card(0, 1.65), 0.002), 0.65, 0.01);
 }
 
 // Fracture at the work of the yield stress 1 over the strain; at the failure strain of tension by tables, and
@@ -142,3 +147,5 @@ TEST(ConcreteAndDamage, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
     test::expect_same_bits(deck.text(100), 60, 25);
   }
 }
+
+}  // namespace concrete_and_damage_test
