@@ -316,6 +316,16 @@ def test_a_report_has_all_sections_and_needs_nothing_else(binout_folder: Path, t
     assert "each kind of element" in text and "beams take no part in contact" in text
 
 
+@needs_courant
+def test_post_without_a_recipe_writes_the_report(binout_folder: Path) -> None:
+    pytest.importorskip("matplotlib")
+    made = subprocess.run([COURANT, "post", str(binout_folder)], check=True, timeout=300, capture_output=True, text=True)
+    assert made.stdout == f"report: {binout_folder / 'report.html'}\n"
+    assert "<h2>Verdict</h2>" in (binout_folder / "report.html").read_text()
+    nothing = subprocess.run([COURANT, "post", str(binout_folder / "none")], timeout=60, capture_output=True, text=True)
+    assert nothing.returncode == 1 and "no such folder" in nothing.stderr
+
+
 def test_a_report_says_what_a_run_did_not_write(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     from courant.report import page_of
