@@ -223,6 +223,8 @@ def test_a_restart_goes_on_in_binout(tmp_path: Path) -> None:
     dump = sorted((parts / "restart").glob("d3dump*"))[0]
     run(deck, parts, "--restart", str(dump))
     assert (whole / "binout0000").read_bytes() == (parts / "binout0000").read_bytes()
+    written = (parts / "binout0000").read_bytes()  # once in front of its values, once in the table of names
+    assert written.count(b"/glstat/metadata") == written.count(b"/elout/shell/metadata") == 2
     assert not (whole / "elout").exists() and len(courant.open(whole).binout["elout/shell/time"]) > 10
     table = courant.open(whole).table("secforc")
     assert table["x_force_1"].shape == table["t"].shape
