@@ -223,6 +223,8 @@ def test_a_restart_goes_on_in_binout(tmp_path: Path) -> None:
     dump = sorted((parts / "restart").glob("d3dump*"))[0]
     run(deck, parts, "--restart", str(dump))
     assert (whole / "binout0000").read_bytes() == (parts / "binout0000").read_bytes()
+    written = (parts / "binout0000").read_bytes()  # once in front of its values, once in the table of names
+    assert written.count(b"/glstat/metadata") == written.count(b"/elout/shell/metadata") == 2
     assert not (whole / "elout").exists() and len(courant.open(whole).binout["elout/shell/time"]) > 10
     table = courant.open(whole).table("secforc")
     assert table["x_force_1"].shape == table["t"].shape
@@ -314,6 +316,16 @@ def test_a_report_has_all_sections_and_needs_nothing_else(binout_folder: Path, t
         assert f"<h2>{section}</h2>" in text
     assert text.count("data:image/png;base64,") >= 12 and "src=\"http" not in text and "href=" not in text
     assert "each kind of element" in text and "beams take no part in contact" in text
+
+
+@needs_courant
+def test_post_without_a_recipe_writes_the_report(binout_folder: Path) -> None:
+    pytest.importorskip("matplotlib")
+    made = subprocess.run([COURANT, "post", str(binout_folder)], check=True, timeout=300, capture_output=True, text=True)
+    assert made.stdout == f"report: {binout_folder / 'report.html'}\n"
+    assert "<h2>Verdict</h2>" in (binout_folder / "report.html").read_text()
+    nothing = subprocess.run([COURANT, "post", str(binout_folder / "none")], timeout=60, capture_output=True, text=True)
+    assert nothing.returncode == 1 and "no such folder" in nothing.stderr
 
 
 def test_a_report_says_what_a_run_did_not_write(tmp_path: Path) -> None:

@@ -387,6 +387,21 @@ def test_strains_go_on_after_a_restart(strained: Path, tmp_path: Path) -> None:
         assert file.read_bytes() == (parts / file.name).read_bytes(), file.name
 
 
+def test_a_criterion_of_strain_leaves_that_of_the_law_alone(tmp_path: Path) -> None:
+    """A cube of honeycomb that is torn fails at its own strain (TSEF 0.5), whatever *MAT_ADD_EROSION and STRFLG measure beside it."""
+    text = (Path(__file__).resolve().parents[1] / "decks/accept/whole_honeycomb.k").read_text()
+    text = text[: text.index("*INITIAL_VELOCITY")].replace("    1.0E-4\n", "    5.0E-2\n", 1) + (
+        "*SET_NODE_LIST\n1\n2,3,6,7\n*SET_NODE_LIST\n2\n1,4,5,8\n*BOUNDARY_SPC_SET\n2,0,1,1,1\n*BOUNDARY_PRESCRIBED_MOTION_SET\n1,1,0,77,1.0\n"
+        "*DEFINE_CURVE\n77\n0.0,20.0\n1.0,20.0\n"
+    )
+    failed = []
+    for k, more in enumerate(("", "*MAT_ADD_EROSION\n1,0.,0.,0.\n0.,0.,0.,10.\n", "*DATABASE_EXTENT_BINARY\n0,0,3,1\n")):
+        (tmp_path / f"{k}.k").write_text(text + more + "*END\n")
+        said = (run(tmp_path / f"{k}.k", tmp_path / str(k)) / "messag").read_text()
+        failed += [line.partition("time ")[2] for line in said.splitlines() if "failed at time" in line]
+    assert len(failed) == 3 and len(set(failed)) == 1, failed
+
+
 def test_lasso_reads_strains_and_points(strained: Path) -> None:
     lasso = pytest.importorskip("lasso.dyna")
     theirs, ours = lasso.D3plot(str(strained / "d3plot")).arrays, courant.open(strained).d3plot

@@ -36,7 +36,11 @@ _KINDS: dict[str, Schema] = {
     "positions": {"anyOf": [_NUMBER, {"type": "array"}, {"$ref": "#/$defs/steps"}]},
     "any": {},
 }
-_HOMES = {"scene": ("scene.reader", "scene.scene"), "recipe": ("post.recipe", "post.views", "post.analyses", "post.bed", "post.state"), "suite": ("verify.suite",)}
+_HOMES = {
+    "scene": ("scene.reader", "scene.scene"),
+    "recipe": ("post.recipe", "post.views", "post.analyses", "post.bed", "post.state"),
+    "suite": ("verify.suite",),
+}
 
 
 def _kind(word: str) -> Schema:
@@ -88,8 +92,9 @@ def _of_recipe() -> tuple[Schema, Schema]:
     from .post.analyses import KINDS
 
     defs = {name: _map(table) for name, table in TABLES.items()}
-    for name, made in (("probe of a recipe", recipe.ProbeRecipe), ("snapshots", recipe.SnapshotRecipe), ("published", jump.PublishedRow), ("curve", figures.Curve), ("map of a figure", figures.Map)):
-        defs[name] = _map(table_of_class(made))
+    classes = {"probe of a recipe": recipe.ProbeRecipe, "snapshots": recipe.SnapshotRecipe, "published": jump.PublishedRow}
+    classes |= {"curve": figures.Curve, "map of a figure": figures.Map}
+    defs |= {name: _map(table_of_class(made)) for name, made in classes.items()}
     defs["jump"] = _map(table_of_class(jump.JumpRecipe), TABLES["more of a jump"])
     defs["view"] = _map(table_of_class(view_scene.View), TABLES["more of a view"])
     figure = (table_of_class(figures.Figure), TABLES["more of a figure"])

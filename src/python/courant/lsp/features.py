@@ -66,7 +66,8 @@ def _keyword_text(block: Block) -> str:
     table = block.table
     lines = [f"**\\*{block.name}**: {table.purpose}", f"State: {table.support or _STATE.get(table.state, table.state)}"]
     for number, card in enumerate(table.cards, 1):
-        how = ", ".join(word for word, on in (("optional", card.optional), ("where other fields request it", card.conditional), ("repeated", card.repeated)) if on)
+        words = (("optional", card.optional), ("where other fields request it", card.conditional), ("repeated", card.repeated))
+        how = ", ".join(word for word, on in words if on)
         lines.append(f"Card {number}{f' ({how})' if how else ''}: {', '.join(one.name for one in card.fields)}")
     return "\n\n".join(lines)
 
@@ -168,7 +169,8 @@ def _header(number: int, card: CardOf, text: str) -> Offer:
     for one in card.fields:
         line = line.ljust(one.begin) + one.name.lower().rjust(min(one.end - one.begin, 10) - (2 if one.begin == 0 else 0))
     fields = "\n".join(f"- {one.name}: {one.meaning} [{one.dimension}]" for one in card.fields)
-    return Offer(f"$# card {number + 1}: {', '.join(one.name for one in card.fields)}", line + "\n", 0, len(text), "snippet", "names of the fields", fields)
+    label = f"$# card {number + 1}: {', '.join(one.name for one in card.fields)}"
+    return Offer(label, line + "\n", 0, len(text), "snippet", "names of the fields", fields)
 
 
 def _values(workspace: Workspace, deck: DeckText, block: Block, found: FieldAt, text: str, column: int) -> list[Offer]:
@@ -181,7 +183,8 @@ def _values(workspace: Workspace, deck: DeckText, block: Block, found: FieldAt, 
 
     def offer(value: str, detail: str) -> Offer:
         new = value if not width else " " * max(0, found.begin - len(text)) + value.rjust(width)
-        return Offer(f"{of.name} = {value}" if not detail else f"{value}: {detail}", new, begin, end, "value", of.name, _field_text(block, of, found.card))
+        label = f"{of.name} = {value}" if not detail else f"{value}: {detail}"
+        return Offer(label, new, begin, end, "value", of.name, _field_text(block, of, found.card))
 
     out = [offer(str(value), "") for value in of.allowed]
     if space := _space_of(block, found):
@@ -217,6 +220,7 @@ def outline(deck: DeckText) -> list[Symbol]:
         children = []
         if 1 < len(ids) <= _MOST_CHILDREN:
             ends = [*(one.line - 1 for one in ids[1:]), end]
-            children = [Symbol(f"{one.space} {one.id}", one.title, min(one.line, end), max(one.line, last_line), []) for one, last_line in zip(ids, ends, strict=True)]
+            pairs = zip(ids, ends, strict=True)
+            children = [Symbol(f"{one.space} {one.id}", one.title, min(one.line, end), max(one.line, last)) for one, last in pairs]
         out.append(Symbol(f"*{block.name}", detail, begin, max(end, begin), children))
     return out

@@ -19,7 +19,8 @@ _Answer = TypeVar("_Answer")
 
 
 class DeckServer:
-    """Registers its handlers with a server of pygls 1 or 2. A fault in a handler is logged, and its answer is empty: half-typed decks never end it."""
+    """Registers its handlers with a server of pygls 1 or 2. A fault in a handler is logged, and its answer is empty:
+    half-typed decks never end it."""
 
     def __init__(self) -> None:
         try:
@@ -176,7 +177,10 @@ class DeckServer:
         t = self.types
         deck, line = self._deck(params.text_document.uri), params.position.line
         found = definitions(self.workspace, deck, line, self._column(deck, params.position))
-        out = [t.Location(uri=self.uris.from_fs_path(one.file), range=self._range(self.workspace.text(one.file), one.line, 0, one.line, 10)) for one in found]
+        out = []
+        for one in found:
+            where = self._range(self.workspace.text(one.file), one.line, 0, one.line, 10)
+            out.append(t.Location(uri=self.uris.from_fs_path(one.file), range=where))
         if file := included_file(deck, line):
             out.append(t.Location(uri=self.uris.from_fs_path(file), range=self._range(None, 0, 0, 0, 0)))
         return out
