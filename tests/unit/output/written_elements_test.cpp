@@ -68,8 +68,8 @@ TEST(WrittenElements, WeldsAreAlikeInAllDirections) {
   const WeldForce x = first_force_of_weld(Vec(1, 0, 0), Vec::Zero());
   ASSERT_GT(x.shear, 0);
   ASSERT_GT(x.moment + 1e-9 * x.shear, 0);
-  for (const Vec& way : {Vec(0, 1, 0), Vec(0.6, 0.8, 0)}) {
-    const WeldForce other = first_force_of_weld(way, Vec::Zero());
+  for (const Vec& along : {Vec(0, 1, 0), Vec(0.6, 0.8, 0)}) {
+    const WeldForce other = first_force_of_weld(along, Vec::Zero());
     EXPECT_NEAR(other.shear, x.shear, 1e-6 * x.shear);
     EXPECT_NEAR(other.moment, x.moment, 1e-6 * x.shear);
     EXPECT_NEAR(other.torsion, 0, 1e-6 * x.shear);
@@ -83,7 +83,7 @@ TEST(WrittenElements, WeldsAreAlikeInAllDirections) {
   EXPECT_NEAR(a.moment, b.moment, 1e-6 * a.moment);
 }
 
-// Resultants are pull, shear along s and t, moments about s and t, torsion: each its stiffness times its
+// Resultants are tension, shear along s and t, moments about s and t, torsion: each its stiffness times its
 // motion, v (1, 2, 3) and w (1, 2, 3) over one step.
 TEST(WrittenElements, DiscreteBeamsNameTheirForcesInOrder) {
   test::beams::BeamDeck deck;
