@@ -141,7 +141,7 @@ std::vector<InterfaceLawsOf>& interface_law_registry() {
 
 namespace {
 
-ContactLaw law_of(const Deck& deck, const ContactCard& c) {
+ContactLaw law_of(const Deck& deck, const Model& model, const ContactCard& c, Diagnostics& diagnostics) {
   const ControlContact* control = deck.last<ControlContact>();
   ContactLaw law;
   law.id = c.cid;
@@ -152,7 +152,7 @@ ContactLaw law_of(const Deck& deck, const ContactCard& c) {
   }
   law.sfsa = c.sfsa, law.sfsb = c.sfsb;
   law.sast = c.sast, law.sbst = c.sbst, law.sfsat = c.sfsat, law.sfsbt = c.sfsbt;
-  law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
+  static_cast<FrictionLaw&>(law) = friction_of_card(deck, model, c, diagnostics);
   law.vdc = c.vdc;
   law.birth = c.bt, law.death = c.dt;
   law.soft = c.soft == 2 ? 1 : c.soft, law.sofscl = c.sofscl, law.dtstif = c.dtstif;
@@ -204,7 +204,7 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     builder.refuse_for_particles(c);
     const std::vector<Index> segments = builder.segments(c);
     if (diagnostics.errors() > errors || segments.empty()) continue;
-    ContactLaw law = law_of(deck, c);
+    ContactLaw law = law_of(deck, model, c, diagnostics);
     if (SensorBoard* const board = sensors_of(deck, model, world, diagnostics))
       law.gate = board->gate_of_contact(c.cid);
     auto contact = std::make_shared<Contact>(std::move(law), options, number, segments, tracked, world);

@@ -55,7 +55,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
       options_(options),
       number_(number),
       dim_(world.dim),
-      friction_on_(law_.fs > 0 || law_.fd > 0),
+      friction_on_(law_.rubs()),
       drag_on_(friction_on_ || law_.vdc > 0),
       hold_(!law_.literal),
       eroded_(shared_fields::eroded.find(world.segments.fields)) {
@@ -85,6 +85,7 @@ Contact::Contact(ContactLaw law, const ContactOptions& options, int number,
     give_stiffness(f, law_, options_.bodies, world);
     if (f.moves) moving_.push_back(Index(&f - facets_.data()));
     deforms_ = deforms_ || (f.moves && f.body < 0);
+    if (law_.table) part_of_.push_back(world.segments.part[f.segment]);
     walls_.push_back(make_wall(f));
     r = std::max(r, f.r);
     k_facet = std::max(k_facet, f.k);
@@ -158,7 +159,8 @@ void Contact::declare(const World& world, Accesses& a) const {
   a.reads(p.x).reads(p.v).reads(p.m).updates(p.f).updates(*admissible_);
   if (radius_) a.reads(*radius_);
   if (friction_on_) {
-    if (law_.vc > 0) a.reads(p.rho);
+    if (law_.limits_stress()) a.reads(p.rho);
+    if (!part_of_.empty()) a.reads(p.part);
     for (std::size_t j = 0; j < 3; ++j) a.updates(*friction_normal_[j]).updates(*friction_force_[j]);
   }
   const bool moves = !moving_.empty(), held = moving_.size() != facets_.size();

@@ -12,6 +12,7 @@
 
 #include "contact/facet.hpp"
 #include "contact/facet_grid.hpp"
+#include "contact/friction.hpp"
 #include "contact/interface_law.hpp"
 #include "contact/push_out.hpp"
 #include "contact/wall.hpp"
@@ -39,12 +40,11 @@ struct ContactOptions {
 };
 
 /// One contact interface as the deck gives it; names and units as on the card and in *CONTROL_CONTACT.
-struct ContactLaw {
+struct ContactLaw : FrictionLaw {
   Id id = 0;
   std::string title;
   Real slsfac = 0.1, sfsa = 1, sfsb = 1;          ///< penalty scales [-]
   Real sast = 0, sbst = 0, sfsat = 1, sfsbt = 1;  ///< thickness overrides [L] and scales [-]
-  Real fs = 0, fd = 0, dc = 0, vc = 0;            ///< friction [-, -, T/L, M/LT2]
   Real vdc = 0;                                   ///< damping, percent of critical
   Real birth = 0, death = 1e20;                   ///< [T]
   SensorGate gate{};
@@ -231,8 +231,8 @@ class Contact : public Force,
   Real gap_at_end(const World& world, const Clock& clock, Index particle, const Facet& f, Real side) const;
   Vec wall_kick(const World& world, const Facet& f, const Vec& q, Real time) const;
   void record_held(World& world, const Clock& clock, EnergyLedger& ledger);
-  Vec friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v, const Vec& n,
-                     Real k) const;
+  Vec friction_force(const World& world, const Clock& clock, Index i, Index facet, Real fn, const Vec& v,
+                     const Vec& n, Real k) const;
   void keep_friction(const Block& b, Index particle, std::size_t first_touch);
   Vec force_of(const Block& b, std::size_t touch) const;
   void give_to_wall(World& world, const Block& b, std::size_t touch, const std::array<Real, 4>& share);
@@ -254,6 +254,7 @@ class Contact : public Force,
   std::vector<std::shared_ptr<InterfaceLaw>> laws_;
   ContactOptions options_;
   int number_, dim_;
+  std::vector<Index> part_of_;  ///< of each facet; empty: friction does not depend on parts
   bool friction_on_, drag_on_, asleep_ = false;
   std::vector<Facet> facets_;
   std::vector<Wall> walls_;             ///< the same facets, for the search

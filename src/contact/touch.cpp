@@ -232,7 +232,7 @@ void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& 
         drag.damping = std::max(damping * std::clamp(p.share / p.depth, 0.0, 1.0), -fn);  // never pulls
         fn += drag.damping;
       }
-      if (friction_on_) drag.friction = friction_force(world, clock, i, fn, v, p.n, k);
+      if (friction_on_) drag.friction = friction_force(world, clock, i, p.facet, fn, v, p.n, k);
       for (const auto& law : laws_)
         drag.other += law->force(
             {.particle = i, .n = p.n, .velocity = v, .push = fn, .depth = p.depth, .stiffness = k, .mass = m},
@@ -259,8 +259,8 @@ Vec Contact::force_of(const Block& b, std::size_t touch) const {
 
 // Elastic predictor: the spring of the last step, turned into the tangent plane, plus -k times the slip since
 // then.
-Vec Contact::friction_force(const World& world, const Clock& clock, Index i, Real fn, const Vec& v,
-                            const Vec& n, Real k) const {
+Vec Contact::friction_force(const World& world, const Clock& clock, Index i, Index facet, Real fn,
+                            const Vec& v, const Vec& n, Real k) const {
   Vec old = Vec::Zero();
   Real best = 0.7;  // a spring belongs to a wall that faces within 45 degrees of the one it was strained at
   for (int j = 0; j < 3; ++j) {
@@ -273,11 +273,15 @@ Vec Contact::friction_force(const World& world, const Clock& clock, Index i, Rea
   }
   const Vec slip = v - v.dot(n) * n;
   Vec trial = old - k * clock.dt_old * slip;
-  Real most = (law_.fd + (law_.fs - law_.fd) * std::exp(-law_.dc * slip.norm())) * fn;
-  if (law_.vc > 0) {
+  const Friction& mu = part_of_.empty()
+                           ? law_
+                           : law_.between(world.particles.part[i], part_of_[static_cast<std::size_t>(facet)]);
+  Real area = 0;
+  if (mu.vc > 0) {
     const Real dx = std::pow(world.particles.m[i] / world.particles.rho[i], 1.0 / world.dim);
-    most = std::min(most, law_.vc * (world.dim == 3 ? dx * dx : dx));
+    area = world.dim == 3 ? dx * dx : dx;
   }
+  const Real most = mu.most(slip.norm(), fn, area);
   const Real size = trial.norm();
   return size > most ? Vec(trial * (most / size)) : trial;
 }

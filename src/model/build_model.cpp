@@ -39,10 +39,11 @@ Model ModelBuilder::build() {
   build_sets();
   move_nodes();
   move_parts();
-  check_solids();
-  check_beams();
   build_coordinate_systems();  // of nodes: where these have gone
   build_vectors();
+  perturb_nodes();
+  check_solids();
+  check_beams();
   build_inertias();
   build_control();
   build_relaxation();

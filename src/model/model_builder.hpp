@@ -84,6 +84,8 @@ class ModelBuilder {
   // move_nodes.cpp
   void move_nodes();
   void move_parts();
+  // perturbation.cpp
+  void perturb_nodes();
   // build_frames.cpp
   void build_local_boxes();
   void build_coordinate_systems();

@@ -350,8 +350,7 @@ class Run {
   }
 
   void fail(const std::string& reason) {
-    summary_.termination = "error";
-    summary_.reason = reason;
+    summary_.termination = "error", summary_.reason = reason;
     failure_ = " *** Error: " + reason;
   }
 
@@ -361,8 +360,7 @@ class Run {
     s_.guard().note_ranges(s_.world(), s_.clock());
     s_.show_wall_forces();
     add_facts_at_stop(facts_, s_, error, who_);
-    summary_.advice = advice(facts_);
-    if (!summary_.advice.empty()) failure_ += "\n     hint: " + summary_.advice;
+    if (!(summary_.advice = advice(facts_)).empty()) failure_ += "\n     hint: " + summary_.advice;
   }
 
   /// Writes what can still be written; a second failure must not hide the first.

@@ -99,6 +99,7 @@ class EdgeContactBuilder {
       edge.area = area_of({world_.nodes.x.vec(a[0]), world_.nodes.x.vec(a[1]), world_.nodes.x.vec(a[2]),
                            world_.nodes.x.vec(a[3])});
       edge.r = measures_.half_thickness(side, s);
+      edge.of_part = g.part[s];
       edge.k = scale(c) * law.sfs[static_cast<std::size_t>(side)] * measures_.stiffness(s, edge.area);
       out.push_back(std::move(edge));
     }
@@ -134,6 +135,7 @@ class EdgeContactBuilder {
       ContactEdge edge;
       edge.node = beam.node;
       edge.r = measures_.beam_radius(beam.area);
+      edge.of_part = group.part;
       edge.k = law.sfs[0] * K * beam.area / beam.length;
       edge.area = 2 * edge.r * beam.length;
       edge.eroded = shared_fields::eroded.find(group.fields);

@@ -12,6 +12,7 @@ struct ContactEdge {
   Real r = 0;                   ///< others touch it at this distance [L]
   Real k = 0;                ///< K A/(longest diagonal) of a shell, K A/L of a beam, with its scales [M/T2]
   Real area = 0;             ///< what VC acts on [L2]
+  Index of_part = -1;        ///< by index into the model's parts
   unsigned sides = 3;        ///< bit 0: of SURFA, bit 1: of SURFB
   std::vector<Index> faces;  ///< whose edge it is, indices into World::segments; of a beam none
   bool always = false;       ///< touches however many of its faces are there, if any

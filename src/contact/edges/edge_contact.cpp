@@ -27,7 +27,7 @@ EdgeContact::EdgeContact(NodeContactLaw law, std::vector<ContactEdge> edges, Wal
       bodies_(std::move(bodies)),
       nodes_(std::move(nodes)),
       number_(number),
-      friction_on_(law_.fs > 0 || law_.fd > 0),
+      friction_on_(law_.rubs()),
       drag_on_(friction_on_ || law_.vdc > 0),
       edges_(std::move(edges)),
       set_(&world.add_set(fmt::format("contact {} edges", number))),

@@ -104,8 +104,9 @@ void EdgeContact::push(const World& world, const Clock& clock, Touch& touch) con
     fn += touch.damping;
   }
   if (friction_on_)
-    touch.friction = friction_of(law_, touch.friction, touch.n, v, k * dt, fn,
-                                 touch.part * std::min(edge(touch.a).area, edge(touch.b).area));
+    touch.friction =
+        friction_of(law_.between(edge(touch.a).of_part, edge(touch.b).of_part), touch.friction, touch.n, v,
+                    k * dt, fn, touch.part * std::min(edge(touch.a).area, edge(touch.b).area));
   touch.force = fn * touch.n + touch.friction;
 }
 

@@ -3,19 +3,19 @@
 #include <string>
 
 #include "base/real.hpp"
+#include "contact/friction.hpp"
 #include "loads/sensors/sensors.hpp"
 
 namespace courant {
 
 /// One interface as the deck gives it; names as on the card and in *CONTROL_CONTACT.
-struct NodeContactLaw {
+struct NodeContactLaw : FrictionLaw {
   Id id = 0;
   std::string title;
   Real slsfac = 0.1;
-  std::array<Real, 2> sfs{1, 1};        ///< of the nodes of each pass (SFSA, SFSB) [-]
-  Real fs = 0, fd = 0, dc = 0, vc = 0;  ///< friction [-, -, T/L, M/LT2]
-  Real vdc = 0;                         ///< damping, percent of critical
-  Real birth = 0, death = 1e20;         ///< [T]
+  std::array<Real, 2> sfs{1, 1};  ///< of the nodes of each pass (SFSA, SFSB) [-]
+  Real vdc = 0;                   ///< damping, percent of critical
+  Real birth = 0, death = 1e20;   ///< [T]
   SensorGate gate{};
   bool sleeps(Real t) const { return t < birth || t > death || !gate.open(); }
   int soft = 0, penopt = 1;

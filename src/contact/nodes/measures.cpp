@@ -61,7 +61,7 @@ NodeContactLaw ContactMeasures::law() const {
   law.title = c.title;
   law.slsfac = control_.slsfac, law.penopt = control_.penopt;
   law.sfs = {c.sfsa, c.sfsb};
-  law.fs = c.fs * c.fsf, law.fd = c.fd * c.fsf, law.dc = c.dc, law.vc = c.vc * c.vsf;
+  static_cast<FrictionLaw&>(law) = friction_of_card(deck_, model_, c, diagnostics_);
   law.vdc = c.vdc;
   law.birth = c.bt, law.death = c.dt;
   if (SensorBoard* const board = sensors_of(deck_, model_, world_, diagnostics_))

@@ -30,7 +30,7 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
     : law_(std::move(law)),
       bodies_(std::move(bodies)),
       number_(number),
-      friction_on_(law_.fs > 0 || law_.fd > 0),
+      friction_on_(law_.rubs()),
       drag_on_(friction_on_ || law_.vdc > 0),
       nodes_(std::move(sides.nodes)),
       own_(std::move(sides.own)),
@@ -57,6 +57,7 @@ NodeContact::NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodi
   world.maxima.try_emplace("max_penetration", 0);
   take_involved(world);
   find_sizes();
+  if (law_.table) find_parts(world);
 }
 
 void NodeContact::take_involved(const World& world) {

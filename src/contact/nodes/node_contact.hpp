@@ -176,6 +176,7 @@ class NodeContact : public Force,
   void list_block(const World& world, Index begin, Index end);
   void take_involved(const World& world);
   void find_sizes();
+  void find_parts(const World& world);
   bool may_touch(const World& world, const ContactNode& node, const ContactFace& face) const;
   void touch(World& world, const Clock& clock, Block& b, Index i);
   void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
@@ -210,6 +211,7 @@ class NodeContact : public Force,
   void fade(const World& world, const Slot& slot, Touch& touch) const;
   void push(const World& world, const Clock& clock, Block& b, Index i, Slot& slot) const;
   void fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const;
+  const Friction& friction_at(const Touch& touch) const;
   void expect(const World& world, const Clock& clock, Block& b, Index i, const Slots& slots) const;
   Index body_under(const ContactFace& f) const;
   void find_bodies(const World& world, Touch& touch) const;
@@ -233,6 +235,8 @@ class NodeContact : public Force,
   TouchHolder* holder_ = nullptr;  ///< null: nodes touch and leave
   int number_;
   bool friction_on_, drag_on_;
+  std::vector<Index> part_of_node_,
+      part_of_face_;  ///< of World::nodes, of faces_; empty: friction does not ask
   std::vector<ContactNode> nodes_;
   std::vector<OwnFace> own_;
   std::vector<ContactFace> faces_;

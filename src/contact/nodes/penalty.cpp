@@ -8,15 +8,14 @@
 
 namespace courant {
 
-Vec friction_of(const NodeContactLaw& law, const Vec& old, const Vec& n, const Vec& v, Real k_dt, Real fn,
+Vec friction_of(const Friction& mu, const Vec& old, const Vec& n, const Vec& v, Real k_dt, Real fn,
                 Real area) {
   const Vec turned = old - old.dot(n) * n;
   const Real size = turned.norm();
   const Vec before = size > 0 ? Vec(turned * (old.norm() / size)) : Vec(Vec::Zero());
   const Vec slip = v - v.dot(n) * n;
   const Vec trial = before - k_dt * slip;
-  Real most = (law.fd + (law.fs - law.fd) * std::exp(-law.dc * slip.norm())) * fn;
-  if (law.vc > 0) most = std::min(most, law.vc * area);
+  const Real most = mu.most(slip.norm(), fn, area);
   const Real asked = trial.norm();
   return asked > most ? Vec(trial * (most / asked)) : trial;
 }

@@ -30,7 +30,7 @@ inline Real part_of_step(Real depth, Real speed, Real dt, Real omega2) {
 
 /// Elastic predictor: the spring of the last step, turned into the tangent plane of n, plus -k times the slip
 /// at velocity `v` since then; at most what FS, FD and VC allow of `fn`. [ML/T2]
-Vec friction_of(const NodeContactLaw& law, const Vec& old, const Vec& n, const Vec& v, Real k_dt, Real fn,
+Vec friction_of(const Friction& mu, const Vec& old, const Vec& n, const Vec& v, Real k_dt, Real fn,
                 Real area);
 
 /// Bound of a frequency, and of which node.

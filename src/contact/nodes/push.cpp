@@ -129,6 +129,22 @@ void NodeContact::push(const World& world, const Clock& clock, Block& b, Index i
   b.touches.push_back(touch);
 }
 
+// Nodes count as parts of their own faces.
+void NodeContact::find_parts(const World& world) {
+  part_of_node_.assign(world.nodes.part.data(), world.nodes.part.data() + world.nodes.size());
+  for (const ContactNode& n : nodes_)
+    if (n.first < n.last)
+      part_of_node_[static_cast<std::size_t>(n.node)] =
+          world.segments.part[own_[static_cast<std::size_t>(n.first)].segment];
+  for (const ContactFace& f : faces_) part_of_face_.push_back(world.segments.part[f.segment]);
+}
+
+const Friction& NodeContact::friction_at(const Touch& touch) const {
+  if (part_of_face_.empty()) return law_;
+  return law_.between(part_of_node_[static_cast<std::size_t>(touch.node)],
+                      part_of_face_[static_cast<std::size_t>(touch.face)]);
+}
+
 // All but where the touch is and what it stores.
 void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch& touch) const {
   const ContactFace& f = face(touch.face);
@@ -157,7 +173,7 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
   }
   if (friction_on_)
     slot.friction = touch.friction =
-        friction_of(law_, slot.friction, touch.n, v, slot.k * clock.dt_old, fn, slot.area);
+        friction_of(friction_at(touch), slot.friction, touch.n, v, slot.k * clock.dt_old, fn, slot.area);
   touch.force = fn * touch.n + touch.friction;
 }
 

@@ -6,12 +6,15 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include "contact/nodes/build.hpp"
 #include "contact/nodes/transducer.hpp"
 #include "contact/tied/constraint.hpp"
+#include "contact/tied/not_exact.hpp"
 #include "contact/tied/on_bodies.hpp"
 #include "contact/tied/sides.hpp"
 #include "contact/tied/springs.hpp"
@@ -47,15 +50,21 @@ class TiedBuilder {
     const TiedKind kind = kind_of(c);
     if (!find(c, ties, kind.welds && (c.surfatyp == 2 || c.surfatyp == 3))) return;
     if (kind.welds) drop_of_bodies(c, ties);
-    if (kind.form == TieForm::exact) {
-      drop_tied(c, ties);
-      if (!may_be_exact(c, ties)) return;
-      drop_held(c, ties);
+    if (kind.form != TieForm::spring) drop_tied(c, ties);
+    bool exact = kind.form != TieForm::spring;
+    if (const auto why =
+            exact ? why_not_exact(c, ties, tied_, corners_, model_, options_, world_) : std::nullopt) {
+      if (kind.form == TieForm::exact) return error(c, why->field, why->text, why->hint);
+      exact = false;
+      diagnostics_.note(deck_.where(c), fmt::format("{}: springs hold displacements and rotations, as {}",
+                                                    deck_.keyword(c), why->text));
     }
+    if (exact) drop_held(c, ties);
     if (ties.empty()) return;
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
     const Id id = c.cid;
-    if (kind.form == TieForm::exact) return add_exact(c, id, kind.turns, ties);
+    if (exact) return add_exact(c, id, kind.turns, ties);
+    if (kind.turns) give_turn_springs(c, ties);
     if (!finder_.are_stiff(c, finder_.faces(c, ContactSide::b, false), false)) return;
     TieStrength strength;
     if (kind.fails) strength.normal = c.fs, strength.shear = c.fd;
@@ -147,7 +156,7 @@ class TiedBuilder {
     return diagnostics_.errors() == errors;
   }
   void hold_by_springs(TiedSpringsLaw law, std::vector<Tie> ties) {
-    for (Tie& tie : ties) tie.k *= slsfac_;
+    for (Tie& tie : ties) tie.k *= slsfac_, tie.turn_k *= slsfac_;
     springs_.insert(springs_.end(), ties.begin(), ties.end());
     add_springs(std::move(law), std::move(ties), world_);
   }
@@ -231,41 +240,30 @@ class TiedBuilder {
                     "leave them out");
   }
 
-  /// Refuses what cannot be tied exactly.
-  bool may_be_exact(const ContactCard& c, const std::vector<Tie>& ties) {
-    const char* const springs = "use the contact with _OFFSET, whose springs may hold any nodes and faces";
-    std::set<Index> eroding;
-    for (const auto& group : world_.groups)
-      if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
-    const int errors = diagnostics_.errors();
-    if (c.dt < model_.endtim) error(c, "DT", "nodes that are tied exactly stay so to the end", springs);
-    if (options_.mass_grows && !of_beams(ties))
-      error(c, "", "nodes that are tied exactly get no mass from mass scaling (DT2MS) once the run goes on",
-            "give MS1ST 1, or use the contact with _OFFSET");
-    for (const Tie& tie : ties) {
-      const Id id = world_.nodes.id[tie.node];
-      const auto part = world_.segments.part[tie.segment];
-      if (options_.bodies.body(tie.node) >= 0)
-        error(c, "SURFA", fmt::format("node {} belongs to a rigid body, which cannot be tied exactly", id),
-              springs);
-      else if (eroding.contains(part))
-        error(c, "SURFB",
-              fmt::format("the elements of part {} may fail, and nothing can be tied exactly to such",
-                          model_.parts[static_cast<std::size_t>(part)].id),
-              springs);
-      else if (corners_.contains(tie.node))
-        error(c, "SURFA", fmt::format("node {} is a corner of a face to which others are tied", id),
-              "exchange SURFA and SURFB of one of the contacts, or use it with _OFFSET");
-      else if (const auto n = std::find_if(tie.at.node.begin(), tie.at.node.end(),
-                                           [&](Index corner) { return tied_.contains(corner); });
-               n != tie.at.node.end())
-        error(c, "SURFB",
-              fmt::format("node {}, a corner of the face next to node {}, is tied by an earlier contact",
-                          world_.nodes.id[*n], id),
-              "exchange SURFA and SURFB of one of the contacts, or use it with _OFFSET");
-      if (diagnostics_.errors() > errors) return false;  // one of many alike
+  /// Springs of rotations that are as fast as those of displacements, by inertia and mass of node and
+  /// corners.
+  void give_turn_springs(const ContactCard& c, std::vector<Tie>& ties) {
+    const Field<Real>* const inertia = shared_fields::rotary_inertia.find(world_.nodes.fields);
+    const Field<Index>* const none = shared_fields::no_rotation.find(world_.nodes.fields);
+    std::size_t hinges = 0;
+    for (Tie& tie : ties) {
+      const auto turns = [&](Index n) { return none && ((*none)[n] == 0 || world_.nodes.follow[n] == 1); };
+      if (!turns(tie.node)) continue;
+      const auto corners = std::span(tie.at.node).first(static_cast<std::size_t>(tie.at.corners));
+      if (!std::all_of(corners.begin(), corners.end(), turns)) {
+        ++hinges;
+        continue;
+      }
+      Real least = std::numeric_limits<Real>::infinity();
+      const auto take = [&](Index n) {
+        if ((*inertia)[n] > 0 && world_.nodes.m[n] > 0)
+          least = std::min(least, (*inertia)[n] / world_.nodes.m[n]);
+      };
+      take(tie.node);
+      for (const Index n : corners) take(n);
+      if (std::isfinite(least)) tie.turn_k = tie.k * least;
     }
-    return true;
+    warn_of_hinges(c, hinges);
   }
 
   /// Takes ties away for which `is` holds, and tells why.
@@ -289,14 +287,6 @@ class TiedBuilder {
     drop(
         c, ties, [&](const Tie& tie) { return options_.bodies.body(tie.node) >= 0; },
         "belong to rigid bodies, with which they go: they are not tied", "leave them out");
-  }
-
-  /// Whether no solid and no shell, which mass scaling may make heavier, has one of the nodes.
-  bool of_beams(const std::vector<Tie>& ties) const {
-    return std::all_of(ties.begin(), ties.end(), [&](const Tie& tie) {
-      const Index part = world_.nodes.part[tie.node];
-      return part >= 0 && model_.parts[static_cast<std::size_t>(part)].has_beam;
-    });
   }
 
   /// A node goes with one face.
@@ -437,6 +427,10 @@ class TiedBuilder {
                       "their faces are not: they stay held, and no moment goes to the faces",
                       count, first_held),
           "hold the corners of the faces, too, or free the nodes");
+    warn_of_hinges(c, hinges);
+  }
+
+  void warn_of_hinges(const ContactCard& c, std::size_t hinges) {
     if (hinges > 0)
       deck_.warning(
           diagnostics_, c, "SURFB",

@@ -19,7 +19,10 @@ constexpr TiedKind tied_kinds[] = {{},
                                    {},
                                    {.turns = true},
                                    {.turns = true},
-                                   {.turns = true, .welds = true}};
+                                   {.turns = true, .welds = true},
+                                   {.form = TieForm::beam, .turns = true},
+                                   {.form = TieForm::spring, .turns = true},
+                                   {.form = TieForm::beam, .turns = true, .welds = true}};
 
 /// The rules of a field that means something else here than in contacts that open.
 void change(KeywordOf<TC>& keyword, std::string_view name, const char* meaning, const FieldRules& rules) {
@@ -37,9 +40,11 @@ KeywordOf<TC> tied_keyword() {
        "CONTACT_TIED_NODES_TO_SURFACE_CONSTRAINED_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE",
        "CONTACT_TIED_SURFACE_TO_SURFACE_OFFSET", "CONTACT_TIED_SURFACE_TO_SURFACE_CONSTRAINED_OFFSET",
        "CONTACT_TIED_SHELL_EDGE_TO_SURFACE", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET",
-       "CONTACT_SPOTWELD"},
+       "CONTACT_SPOTWELD", "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_BEAM_OFFSET",
+       "CONTACT_TIED_SHELL_EDGE_TO_SURFACE_OFFSET", "CONTACT_SPOTWELD_BEAM_OFFSET"},
       "nodes of elements that go with the faces next to which they are at the start: "
-      "exactly, or with _OFFSET held by springs; of shell edges and welds rotations, too");
+      "exactly, or with _OFFSET held by springs; of shell edges and welds rotations, too; with "
+      "_BEAM_OFFSET exactly where that can be, else by springs of displacements and rotations");
   for (CardOf<TC>& card : contact_optional_cards<TC>()) out.cards.push_back(std::move(card));
   for (const char* name : {"FS", "FD", "DC", "VC", "VDC"})
     change(out, name, "of contacts that are not tied", no_effect);

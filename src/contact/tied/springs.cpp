@@ -8,7 +8,9 @@
 #include <map>
 #include <set>
 
+#include "base/rotation.hpp"
 #include "contact/nodes/touch_holder.hpp"
+#include "contact/tied/turning.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
 
@@ -32,12 +34,16 @@ TimeLimit::Limit limit_of_springs(const std::vector<Tie>& ties, Real tssfac, con
   std::map<Index, Real> lighter;
   Real most = 0;
   Index stiffest = -1;
+  const Field<Real>* const inertia = shared_fields::rotary_inertia.find(nodes.fields);
   for (Index n = 0; n < nodes.size(); ++n) {
-    Real sum = 0;
+    Real sum = 0, turns = 0;
     shares.for_each(n, [&](const TieShares::Share& one) {
       const auto t = static_cast<std::size_t>(one.tie);
       sum += ties[t].k * spread[t] * (one.corner < 0 ? 1 : share[t][static_cast<std::size_t>(one.corner)]);
+      turns += 2 * ties[t].turn_k * (one.corner < 0 ? 1 : ties[t].at.N[static_cast<std::size_t>(one.corner)]);
     });
+    if (turns > 0 && (*inertia)[n] > 0 && turns > most * (*inertia)[n])
+      most = turns / (*inertia)[n], stiffest = n;
     if (!(sum > 0) || nodes.held[n]) continue;
     if (const Index body = bodies.body(n); body >= 0 && bodies.lighter) {
       const auto [known, is_new] = lighter.try_emplace(body, 1);
@@ -63,6 +69,11 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
         nodes_(world.nodes.size()),
         shares_(ties_, true, nodes_),
         eroded_(shared_fields::eroded.find(world.segments.fields)) {
+    if (std::any_of(ties_.begin(), ties_.end(), [](const Tie& tie) { return tie.turn_k > 0; })) {
+      spin_ = shared_fields::angular_velocity.find(world.nodes.fields);
+      moment_ = shared_fields::moment.find(world.nodes.fields);
+      turn_.assign(3 * ties_.size(), 0);
+    }
     if (law_.strength.breaks()) world.counters.try_emplace("broken_ties", 0);
     if (law_.strength.opening > 0) onset_.assign(ties_.size(), 0), widest_ = onset_;
   }
@@ -70,13 +81,18 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_start().reads(world.nodes.x, Reach::others);
+    if (spin_) a.reads(*spin_, Reach::others);
     if (eroded_) a.reads(*eroded_, Reach::others);
     a.in_block().updates(world.nodes.f);
+    if (moment_) a.updates(*moment_);
   }
 
   void start(World& world, const Clock& clock) override {
     if (clock.t >= law_.death) return end();
-    for_each(static_cast<Index>(ties_.size()), [&](Index t) { look(world, static_cast<std::size_t>(t)); });
+    for_each(static_cast<Index>(ties_.size()), [&](Index t) {
+      look(world, static_cast<std::size_t>(t));
+      if (spin_) turn(clock.dt_old, static_cast<std::size_t>(t));
+    });
     for (std::size_t t = 0; t < ties_.size(); ++t) {
       lost_ += now_[t].lost, now_[t].lost = 0;
       if (!now_[t].breaks) continue;
@@ -88,14 +104,17 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
   }
   void block(World& world, const Clock&, Index begin, Index end) override {
     for (Index n = begin; n < end; ++n) {
-      Vec force = Vec::Zero();
+      Vec force = Vec::Zero(), moment = Vec::Zero();
       bool any = false;
       shares_.for_each(n, [&](const TieShares::Share& share) {
-        const SpringState& one = now_[static_cast<std::size_t>(share.tie)];
-        force += share.corner < 0 ? one.force : one.on[static_cast<std::size_t>(share.corner)];
+        const auto t = static_cast<std::size_t>(share.tie), e = static_cast<std::size_t>(share.corner);
+        force += share.corner < 0 ? now_[t].force : now_[t].on[e];
+        moment += share.corner < 0 ? now_[t].moment : Vec(-ties_[t].at.N[e] * now_[t].moment);
         any = true;
       });
-      if (any) world.nodes.f.add(n, force);
+      if (!any) continue;
+      world.nodes.f.add(n, force);
+      if (moment_) moment_->add(n, moment);
     }
   }
   void record(World&, const Clock&, EnergyLedger& ledger) override {
@@ -113,6 +132,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
   }
   void keep(Archive& archive) override {
     archive("broken", broken_), archive("over", over_);
+    if (spin_) archive("turn", turn_);
     if (law_.strength.opening > 0) archive("onset", onset_), archive("widest", widest_);
     archive("lost", lost_);
     archive("lost_so_far", lost_so_far_);
@@ -137,12 +157,25 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
   }
 
   struct SpringState {
-    Vec force = Vec::Zero();  ///< on the node [ML/T2]
+    Vec force = Vec::Zero(), moment = Vec::Zero();  ///< on the node [ML/T2], [ML2/T2]
     std::array<Vec, 4> on{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
     Real stored = 0;  ///< [ML2/T2]
     Real lost = 0;    ///< in this step, to damage [ML2/T2]
     bool breaks = false;
   };
+
+  /// By how much the node has turned against the face, in axes that turn with this.
+  void turn(Real dt, std::size_t t) {
+    const Tie& tie = ties_[t];
+    if (broken_[t] || now_[t].breaks || !(tie.turn_k > 0)) return;
+    Real* const kept = turn_.data() + 3 * t;
+    const Vec of_face = mean_of(tie.at, *spin_), before(kept[0], kept[1], kept[2]);
+    const Vec now = turned_by(dt * of_face, Eigen::Quaterniond::Identity()) * before +
+                    dt * (spin_->vec(tie.node) - of_face);
+    std::copy_n(now.data(), 3, kept);
+    now_[t].moment = -tie.turn_k * now;
+    now_[t].stored += 0.5 * tie.turn_k * now.squaredNorm();
+  }
 
   void look(const World& world, std::size_t t) {
     const Tie& tie = ties_[t];
@@ -197,7 +230,10 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
 
   std::vector<Index> broken_;
   std::vector<Real> onset_, widest_;  ///< distances where damage began and has come to, 0: not yet [L]
+  std::vector<Real> turn_;            ///< x, y, z of each tie [-]
   std::vector<SpringState> now_;
+  const Field<Real>* spin_ = nullptr;  ///< of nodes; null: no rotation is held
+  Field<Real>* moment_ = nullptr;
   Index nodes_;  ///< of the world
   TieShares shares_;
   const Field<Index>* eroded_;       ///< of segments; null: nothing fails

@@ -7,6 +7,7 @@ namespace courant {
 enum class TieForm {
   exact,   ///< nodes go with faces, their masses and forces to the corners
   spring,  ///< penalty springs (_OFFSET)
+  beam,    ///< exact where that can be, else springs, of rotations, too (_BEAM_OFFSET)
 };
 
 /// *CONTACT_TIED_...; field names and units as in the keywords' table.

@@ -140,16 +140,8 @@ class BeamForces : public Material,
   }
 
   void report_welds(const World& world, std::vector<WeldForce>& out) const override {
-    for (Index e = 0; sections_ && e < group_.size(); ++e) {
-      const SectionForces f = sections_->forces(e);
-      out.push_back({.id = group_.id[e],
-                     .axial = f[0],
-                     .shear = std::hypot(f[4], f[5]),
-                     .moment = std::hypot(f[2], f[3]),
-                     .torsion = f[1],
-                     .length = between_ends(world.nodes.x, e).norm(),
-                     .failure_time = sections_->failure_time(e)});
-    }
+    for (Index e = 0; sections_ && e < group_.size(); ++e)
+      out.push_back(sections_->report(e, group_.id[e], between_ends(world.nodes.x, e).norm()));
   }
 
   const ElementGroup& beams() const override { return group_; }
@@ -381,7 +373,9 @@ class BeamForces : public Material,
     }
     for (Index i = 0; i < n; ++i) {
       const BeamMeasures& m = part_.measures[at(begin + i)];
-      const Six& sum = middle[at(i)];
+      Six& sum = middle[at(i)];
+      if (part_.preload.any() && !dead(begin + i))
+        part_.preload.hold(begin + i, clock.t, part_.points, m, stress_, sum);
       if (sections_ && !dead(begin + i)) why_[at(begin + i)] = sections_->look(begin + i, sum, clock.t);
       const Real half = turns_ ? 0.5 * change.turned[at(i)].frame.length * m.shear_area / m.A : 0;
       change.after[at(i)] = {sum[0],

@@ -424,6 +424,7 @@ std::vector<BeamPart> find_beam_parts(const Deck& deck, const Model& model, Diag
   BeamReader reader(deck, model, diagnostics);
   for (std::size_t k = 0; k < model.parts.size(); ++k)
     if (model.parts[k].has_beam && !reader.read(k, out[k])) out[k] = {};
+  read_preloads(deck, model, out, diagnostics);
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "elements/beam/axial_preload.hpp"
 #include "elements/beam/beam_frame.hpp"
 #include "elements/beam/weld.hpp"
 #include "elements/erosion.hpp"
@@ -51,6 +52,7 @@ struct BeamPart {
   std::vector<Matrix> axes{};            ///< r, s, t at the start, as columns
   Real nsm = 0;                          ///< mass per length besides that of the law [M/L]
   std::optional<WeldStrength> weld{};    ///< of ELFORM 9
+  AxialPreload preload{};
   ElementGroup* group = nullptr;
 };
 

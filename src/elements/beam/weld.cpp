@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace courant {
 
@@ -44,6 +45,17 @@ SectionForces WeldSections::forces(Index e) const {
   SectionForces out;
   for (int k = 0; k < 6; ++k) out[static_cast<std::size_t>(k)] = forces_.data(k)[e];
   return out;
+}
+
+WeldForce WeldSections::report(Index e, Id id, Real length) const {
+  const SectionForces f = forces(e);
+  return {.id = id,
+          .axial = f[0],
+          .shear = std::hypot(f[4], f[5]),
+          .moment = std::hypot(f[2], f[3]),
+          .torsion = f[1],
+          .length = length,
+          .failure_time = failure_time(e)};
 }
 
 SectionForces WeldSections::mean(Index e, const SectionForces& forces) {

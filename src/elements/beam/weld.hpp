@@ -26,6 +26,12 @@ struct WeldStrength {
 };
 WeldStrength weld_strength(const MatSpotweld& card);
 
+/// Of one weld, for *DATABASE_SWFORC: magnitudes of shear force and of bending moment.
+struct WeldForce {
+  Id id = 0;
+  Real axial = 0, shear = 0, moment = 0, torsion = 0, length = 0;
+  Real failure_time = 0;  ///< 0: it holds [T]
+};
 /// The forces of the welds of a group, and of the last steps where they are averaged.
 class WeldSections {
  public:
@@ -36,6 +42,7 @@ class WeldSections {
   /// For other reasons.
   void failed(Index e, Real t) { failure_time_[e] = t; }
   SectionForces forces(Index e) const;
+  WeldForce report(Index e, Id id, Real length) const;
   /// 0: it holds. [T]
   Real failure_time(Index e) const { return failure_time_[e]; }
   Field<Real>& field() { return forces_; }
@@ -48,12 +55,6 @@ class WeldSections {
   Field<Index>* count_ = nullptr;  ///< steps so far
 };
 
-/// Of one weld, for *DATABASE_SWFORC: magnitudes of shear force and of bending moment.
-struct WeldForce {
-  Id id = 0;
-  Real axial = 0, shear = 0, moment = 0, torsion = 0, length = 0;
-  Real failure_time = 0;  ///< 0: it holds [T]
-};
 /// A pass over welds.
 struct WeldReporter {
   virtual ~WeldReporter() = default;

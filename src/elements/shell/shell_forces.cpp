@@ -17,6 +17,7 @@
 #include "elements/shell/flow_stress.hpp"
 #include "elements/shell/layer_axes.hpp"
 #include "elements/shell/layers.hpp"
+#include "elements/shell/shell_faults.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "state/reports.hpp"
@@ -73,6 +74,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       for (const HistoryVariable& h : layer_of(p).law->history())
         history_.push_back(&layer_history_of(group, h, p));
     for (Index e = 0; e < group_.size(); ++e) thickness_[e] = world.segments.thickness[(*group_.segment)[e]];
+    lay_sizes();
     start(world, {});
     if (options.scaling.step > 0) scale_masses(options.scaling, world);
     limit_to_frequency(held, world);
@@ -151,7 +153,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     if (scaled_) scaled_->grow(world);
     if (!control_.thins) return;
     for (Index e = 0; e < group_.size(); ++e)
-      if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e))) stop_for_thickness(e, clock);
+      if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e)))
+        stop_for_thickness(group_, part_id_, e, state_.thickness[e], clock);
   }
 
   Limit limit(const World&, const Clock&) override {
@@ -377,9 +380,16 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   void reset() {
     for (Field<Real>* field : {&stress_, &internal_, &hourglass_, &bulk_viscosity_}) field->fill(0);
     for (Field<Real>* h : history_) h->fill(0);
+    lay_sizes();
     if (hourglass_force_) hourglass_force_->fill(0);
     if (flow_stress_) flow_stress_->fill(0);
     if (viscous_) viscous_->fill(0);
+  }
+
+  void lay_sizes() {
+    for (Field<Real>* h : history_)
+      for (Index e = 0; h->info().name.rfind(element_size, 0) == 0 && e < group_.size(); ++e)
+        (*h)[e] = std::sqrt(group_.V0[e] / thickness_[e]);
   }
 
   Real total(const Field<Real>& field) const {
@@ -388,16 +398,6 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   Real total_of_dead(const Field<Real>& field) const {
     return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
   }
-  [[noreturn]] void stop_for_thickness(Index e, const Clock& clock) const {
-    const ReadsForMessage unchecked;
-    throw RunError(
-        fmt::format("shell {} of part {} has the thickness {:.4g} at time {:.6g}, cycle {}", group_.id[e],
-                    part_id_, state_.thickness[e], clock.t, clock.cycle),
-        std::isnan(state_.thickness[e]) ? StopCause::not_finite : StopCause::element,
-        "it has been drawn to nothing: let it fail (*MAT_ADD_EROSION, FAIL of its material), or keep "
-        "its thickness (ISTUPD 0 of *CONTROL_SHELL)");
-  }
-
   /// What is at a point through the thickness.
   struct Layer {
     std::shared_ptr<StrengthLaw> law;

@@ -20,7 +20,8 @@ class SolidLaws {
  public:
   SolidLaws(const Deck& deck, const Model& model) : eos_(deck, model) {
     for (const StrengthEntry& kind : strength_registry()) {
-      if (!tells_directions(kind.keyword)) known_ += "*" + kind.keyword + ", ";
+      const bool is_material = !kind.keyword.starts_with("MAT_ADD_");
+      if (is_material && !tells_directions(kind.keyword)) known_ += "*" + kind.keyword + ", ";
       for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
     }
     for (const MatNull& fluid : deck.all<MatNull>()) laws_.emplace(fluid.mid, fluid.law());

@@ -99,6 +99,10 @@ void FullPoints::set_tensor(std::size_t number, Index e, const std::array<Real, 
     for (int k = 0; k < 6; ++k) history_[number]->data(6 * p + k)[e] = tensor[static_cast<std::size_t>(k)];
 }
 
+void FullPoints::set_number(std::size_t number, const Field<Real>& value) {
+  for (int p = 0; p < points_; ++p) std::copy_n(value.data(), group_.size(), history_[number]->data(p));
+}
+
 void FullPoints::average(Field<Real>& stress, const std::vector<Field<Real>*>& history) const {
   const auto mean = [&](const Field<Real>& from, Field<Real>& to) {
     const int n = to.info().components;

@@ -58,6 +58,8 @@ class FullPoints {
   void reset();
   /// What all points of an element have of a tensor of the law's history, the one with this number.
   void set_tensor(std::size_t number, Index e, const std::array<Real, 6>& tensor);
+  /// What all points have of a number of the law's history, by element.
+  void set_number(std::size_t number, const Field<Real>& value);
   /// At the start, of an equation of state. Adds a field. [M/LT2]
   void start_pressure(Real p);
   /// Means over the points. `history`: a field for each number of the law, as the law has them.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace courant {
 
 void check_directions(const Deck& deck, const Model& model, Index part, const MaterialAxes& axes,
@@ -21,6 +23,8 @@ void check_directions(const Deck& deck, const Model& model, Index part, const Ma
   }
 }
 
+namespace {
+
 void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const SolidMesh& mesh,
                     Field<Real>& tensor, FullPoints* points) {
   for (Index e = 0; e < group.size(); ++e) {
@@ -35,6 +39,22 @@ void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const S
     for (int k = 0; k < 6; ++k) tensor.data(k)[e] = laid[static_cast<std::size_t>(k)];
     if (points) points->set_tensor(0, e, laid);
   }
+}
+
+void lay_sizes(const ElementGroup& group, const std::vector<Field<Real>*>& history, FullPoints* points) {
+  for (std::size_t h = 0; h < history.size(); ++h) {
+    if (history[h]->info().name != element_size) continue;
+    for (Index e = 0; e < group.size(); ++e) (*history[h])[e] = std::cbrt(group.V0[e]);
+    if (points) points->set_number(h, *history[h]);
+  }
+}
+
+}  // namespace
+
+void lay_directions_and_sizes(const StrengthLaw& law, const ElementGroup& group, const SolidMesh& mesh,
+                              const std::vector<Field<Real>*>& history, FullPoints* points) {
+  if (law.axes()) lay_directions(*law.axes(), group, mesh, *history.front(), points);
+  lay_sizes(group, history, points);
 }
 
 }  // namespace courant

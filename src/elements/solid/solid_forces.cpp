@@ -393,7 +393,7 @@ class SolidForces : public Material,
     if (full_) full_->reset();
     if (hourglass_force_) hourglass_force_->fill(0);
     group_.corner_force->fill(0);
-    if (law_->axes()) lay_directions(*law_->axes(), group_, mesh_, *history_.front(), full_.get());
+    lay_directions_and_sizes(*law_, group_, mesh_, history_, full_.get());
   }
 
   /// Pressure and energy of the equation of state at the start.

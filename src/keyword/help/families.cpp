@@ -144,8 +144,6 @@ constexpr Family families[] = {
     {"INCLUDE_NASTRAN", "Nastran files"},
     {"INCLUDE_STAMPED", "results of stamping"},
     {"INITIAL", "this initial condition"},
-    {"INITIAL_AXIAL_FORCE", "initial stresses",
-     "F0 of *MAT_CABLE_DISCRETE_BEAM is the tension of cables at the start"},
     {"INITIAL_DETONATION", "detonations"},
     {"INITIAL_FOAM_REFERENCE_GEOMETRY", "reference geometries"},
     {"INITIAL_PWP", "pore pressures"},

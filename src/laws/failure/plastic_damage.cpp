@@ -12,7 +12,7 @@ namespace {
 class DamagedPlasticity : public FailingLaw {
  public:
   DamagedPlasticity(std::shared_ptr<StrengthLaw> of, PlasticDamage damage)
-      : FailingLaw(std::move(of), {"damage", "-"}), damage_(std::move(damage)) {}
+      : FailingLaw(std::move(of), {{"damage", "-"}}), damage_(std::move(damage)) {}
 
   void update(const PointBlock& block) const override {
     around(block, [this](const PointBlock& own) { of_->update(own); });

@@ -13,7 +13,7 @@ namespace {
 class ThinningFailure : public FailingLaw {
  public:
   ThinningFailure(std::shared_ptr<StrengthLaw> of, const ThinningLimits& limits)
-      : FailingLaw(std::move(of), {"strain", "-", 6}), limits_(limits) {}
+      : FailingLaw(std::move(of), {{"strain", "-", 6}}), limits_(limits) {}
 
   /// In solids thickness has no meaning: only the law's own limit counts.
   void update(const PointBlock& block) const override {

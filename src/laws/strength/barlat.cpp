@@ -52,19 +52,12 @@ BarlatSurface BarlatSurface::of_ratios(Real R00, Real R45, Real R90, Real M) {
 
 namespace {
 
-/// SIGY + Ep e, K (e0 + e)^N, or a curve.
-struct SheetHardening {
-  Real yield = 0, slope = 0;  ///< [M/LT2]
-  Real K = 0, e0 = 0, N = 0;
-  IndexedPieces curve{};
-};
-
 class BarlatSheet : public StrengthLaw {
  public:
-  BarlatSheet(const BarlatCard& card, const BarlatSurface& surface, const MaterialAxes& axes,
+  BarlatSheet(const SheetElasticity& elastic, const SheetSurface& surface, const MaterialAxes& axes,
               SheetHardening hardening)
-      : surface_(surface), axes_(axes), hardening_(std::move(hardening)), E_(card.E), nu_(card.pr) {
-    ro = card.ro;
+      : surface_(surface), axes_(axes), hardening_(std::move(hardening)), E_(elastic.E), nu_(elastic.nu) {
+    ro = elastic.ro;
     elastic_ = {E_ / (1 - nu_ * nu_), nu_ * E_ / (1 - nu_ * nu_), E_ / (2 * (1 + nu_))};
   }
   Real bulk_modulus() const override { return E_ / (3 * (1 - 2 * nu_)); }
@@ -103,14 +96,29 @@ class BarlatSheet : public StrengthLaw {
     if (!hardening_.curve.empty())
       for (Index i = 0; i < at.count; ++i) at.stress[i] = hardening_.curve(at.plastic[i], at.by_strain[i]);
     else if (hardening_.K > 0)
-      powers_.power_law(hardening_.K, hardening_.e0, hardening_.N, at);
+      powers_.power_law(hardening_.K, hardening_.e0, hardening_.N, at), lower(at);
+    else if (hardening_.top > 0)
+      saturate(at);
     else
       for (Index i = 0; i < at.count; ++i)
         at.stress[i] = hardening_.yield + hardening_.slope * at.plastic[i],
         at.by_strain[i] = hardening_.slope;
   }
 
-  BarlatSurface surface_;
+  void lower(YieldPoints& at) const {
+    for (Index i = 0; hardening_.less != 0 && i < at.count; ++i) at.stress[i] -= hardening_.less;
+  }
+  void saturate(YieldPoints& at) const {
+    const SheetHardening& h = hardening_;
+    for (Index i = 0; i < at.count; ++i) {
+      const Real e = at.plastic[i], x = e > 0 ? std::pow(e, h.power) : 0;
+      const Real left = h.range * std::exp(-h.rate * x);
+      at.stress[i] = h.top - left;
+      at.by_strain[i] = e > 0 ? h.rate * h.power * x / e * left : (h.power == 1 ? h.rate * left : 0);
+    }
+  }
+
+  SheetSurface surface_;
   MaterialAxes axes_;
   SheetHardening hardening_;
   Real E_, nu_;
@@ -144,7 +152,29 @@ std::shared_ptr<StrengthLaw> BarlatCard::law_of(const Model& model, const Barlat
   } else {
     hardening.yield = p2, hardening.slope = E * p1 / (E - p1);
   }
-  return std::make_shared<BarlatSheet>(*this, surface, axes(model, beta), std::move(hardening));
+  return make_sheet({ro, E, pr}, surface.sheet(), axes(model, beta), std::move(hardening));
+}
+
+std::shared_ptr<StrengthLaw> make_sheet(const SheetElasticity& elastic, const SheetSurface& surface,
+                                        const MaterialAxes& axes, SheetHardening hardening) {
+  return std::make_shared<BarlatSheet>(elastic, surface, axes, std::move(hardening));
+}
+
+void check_sheet_curve(const Deck& deck, const Model& model, const Entry& card, const char* field, Id id,
+                       const char* hint, Diagnostics& diagnostics) {
+  const auto found = model.curves.find(id);
+  const auto fail = [&](const std::string& what) { deck.error(diagnostics, card, field, what, hint); };
+  if (found == model.curves.end())
+    return fail(model.tables.count(id) > 0 ? fmt::format("table {} is not supported", id)
+                                           : fmt::format("curve {} does not exist", id));
+  const std::vector<Real>&x = found->second.abscissa, &y = found->second.ordinate;
+  if (x.size() < 2) return fail(fmt::format("curve {} has less than two points", id));
+  for (std::size_t k = 0; k < x.size(); ++k)
+    if (!(y[k] > 0) || (k > 0 && (!(x[k] > x[k - 1]) || y[k] < y[k - 1])))
+      return fail(fmt::format(
+          "curve {}: expected rising strains and stresses > 0 that do not fall, got ({:g}, {:g}) at "
+          "point {}",
+          id, x[k], y[k], k + 1));
 }
 
 void BarlatCard::expect(const Deck& deck, Diagnostics& diagnostics, bool holds, const char* field,
@@ -176,24 +206,8 @@ void BarlatCard::check_hardening(const Deck& deck, const Model& model, Diagnosti
     check(p1 > 0, "P1", "a number > 0", p1, "with HR 2 the factor of (E0 + e)^P2");
     check(p2 > 0 && p2 < 1, "P2", "a number between 0 and 1", p2, "with HR 2 the exponent of hardening");
   } else if (hr == 3) {
-    const auto found = model.curves.find(lcid);
-    const char* hint = "with HR 3 a *DEFINE_CURVE of yield stress over effective plastic strain";
-    if (found == model.curves.end())
-      return deck.error(diagnostics, *this, "LCID",
-                        model.tables.count(lcid) > 0 ? fmt::format("table {} is not supported", lcid)
-                                                     : fmt::format("curve {} does not exist", lcid),
-                        hint);
-    const std::vector<Real>&x = found->second.abscissa, &y = found->second.ordinate;
-    if (x.size() < 2)
-      return deck.error(diagnostics, *this, "LCID", fmt::format("curve {} has less than two points", lcid),
-                        hint);
-    for (std::size_t k = 0; k < x.size(); ++k)
-      if (!(y[k] > 0) || (k > 0 && (!(x[k] > x[k - 1]) || y[k] < y[k - 1])))
-        return deck.error(diagnostics, *this, "LCID",
-                          fmt::format("curve {}: expected rising strains and stresses > 0 that do not fall, "
-                                      "got ({:g}, {:g}) at point {}",
-                                      lcid, x[k], y[k], k + 1),
-                          hint);
+    check_sheet_curve(deck, model, *this, "LCID", lcid,
+                      "with HR 3 a *DEFINE_CURVE of yield stress over effective plastic strain", diagnostics);
   }
 }
 

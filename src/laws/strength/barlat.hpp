@@ -6,13 +6,26 @@
 #include <array>
 #include <memory>
 
+#include "base/indexed_pieces.hpp"
 #include "laws/strength/material_axes.hpp"
 #include "laws/strength/strength.hpp"
 #include "laws/strength/yield_points.hpp"
 
 namespace courant {
 
+/// The same with coefficients of its own, as other surfaces of the kind have them: K1 = k s, K2^2 = (d s)^2 +
+/// t^2 s_ab^2 beside it, and alone K3^2 = (e s)^2 + u^2 s_ab^2 instead of K2, s = (s_a, s_b).
+struct SheetSurface {
+  Real A = 1, C = 1, M = 2;
+  std::array<Real, 2> k{}, d{}, e{};
+  Real t = 0, u = 0;
+  bool one = false;  ///< K3 is K2
+};
+
 struct BarlatSurface {
+  SheetSurface sheet() const {
+    return {A, C, M, {0.5, 0.5 * H}, {0.5, -0.5 * H}, {0.5, -0.5 * H}, P, P, true};
+  }
   Real A = 1, C = 1, H = 1, P = 1;
   Real M = 2;  ///< at least 2
   /// From the ratios of the plastic strain across the tension to that through the thickness, in tension along
@@ -38,13 +51,33 @@ struct BarlatLoops {
   void (*go)(const std::array<Real, 3>& elastic, const PointBlock& block, BarlatPoints& points);
   /// Yield stresses are there. A step to the surface: whether there are points that were not close to it. Or
   /// with `turning` flow along the normal there, instead of that at the trial stress.
-  bool (*step)(bool turning, const BarlatSurface& surface, const std::array<Real, 3>& elastic,
+  bool (*step)(bool turning, const SheetSurface& surface, const std::array<Real, 3>& elastic,
                const PointBlock& block, BarlatPoints& points);
   /// Rate zz. `by_plane`: strain zz over the sum of the stresses in the plane. [LT2/M]
   void (*settle)(Real by_plane, const PointBlock& block, const BarlatPoints& points, Real* rate_zz);
 };
 /// For the machine the program runs on.
 BarlatLoops barlat_loops();
+
+/// Yield stress over plastic strain: SIGY + Ep e, K (e0 + e)^N - less, top - range exp(-rate e^power), or a
+/// curve.
+struct SheetHardening {
+  Real yield = 0, slope = 0;                     ///< [M/LT2]
+  Real K = 0, e0 = 0, N = 0, less = 0;           ///< K and less [M/LT2]
+  Real top = 0, range = 0, rate = 0, power = 1;  ///< of Voce, Hockett and Sherby; top and range [M/LT2]
+  IndexedPieces curve{};
+};
+
+/// The elastic body of such a sheet.
+struct SheetElasticity {
+  Real ro, E, nu;  ///< [M/L3], [M/LT2], [-]
+};
+std::shared_ptr<StrengthLaw> make_sheet(const SheetElasticity& elastic, const SheetSurface& surface,
+                                        const MaterialAxes& axes, SheetHardening hardening);
+/// What is wrong with a curve of yield stresses, for `field` of a card; nothing is reported where it is
+/// right.
+void check_sheet_curve(const Deck& deck, const Model& model, const Entry& card, const char* field, Id id,
+                       const char* hint, Diagnostics& diagnostics);
 
 /// What cards of such sheets have alike.
 struct BarlatCard : DirectionsCard {

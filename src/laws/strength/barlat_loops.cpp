@@ -44,20 +44,30 @@ COURANT_INLINE Real power_less_2(Real x, Real M) {
 struct AtPoint {
   Real F, na, nb, nc, ca, cb, cc;
 };
-template <int N>
-COURANT_INLINE AtPoint at_point(const BarlatSurface& s, const std::array<Real, 3>& elastic, Real a, Real b,
+template <int N, bool one>
+COURANT_INLINE AtPoint at_point(const SheetSurface& s, const std::array<Real, 3>& elastic, Real a, Real b,
                                 Real c) {
   AtPoint out;
-  const Real hb = s.H * b, P2 = s.P * s.P, K1 = 0.5 * (a + hb), difference = 0.5 * (a - hb);
-  const Real K2 = std::sqrt(difference * difference + P2 * c * c) + none;
-  const Real plus = K1 + K2, minus = K1 - K2, twice = 2 * K2;
+  const Real K1 = s.k[0] * a + s.k[1] * b, d = s.d[0] * a + s.d[1] * b;
+  const Real K2 = std::sqrt(d * d + s.t * s.t * c * c) + none;
+  const Real e = one ? d : s.e[0] * a + s.e[1] * b;
+  const Real K3 = one ? K2 : std::sqrt(e * e + s.u * s.u * c * c) + none;
+  const Real plus = K1 + K2, minus = K1 - K2, twice = 2 * K3;
   const Real of_plus = s.A * plus * power_less_2<N>(plus, s.M),
              of_minus = s.A * minus * power_less_2<N>(minus, s.M),
              of_twice = s.C * twice * power_less_2<N>(twice, s.M);
   out.F = 0.5 * (of_plus * plus + of_minus * minus + of_twice * twice);
-  const Real by_K1 = 0.5 * (of_plus + of_minus), by_K2 = (0.5 * (of_plus - of_minus) + of_twice) / K2;
-  out.na = 0.5 * (by_K1 + by_K2 * difference), out.nb = 0.5 * s.H * (by_K1 - by_K2 * difference);
-  out.nc = by_K2 * P2 * c;
+  const Real by_K1 = 0.5 * (of_plus + of_minus);
+  if constexpr (one) {
+    const Real by_K2 = (0.5 * (of_plus - of_minus) + of_twice) / K2;
+    out.na = s.k[0] * by_K1 + s.d[0] * d * by_K2, out.nb = s.k[1] * by_K1 + s.d[1] * d * by_K2;
+    out.nc = by_K2 * s.t * s.t * c;
+  } else {
+    const Real by_K2 = 0.5 * (of_plus - of_minus) / K2, by_K3 = of_twice / K3;
+    out.na = s.k[0] * by_K1 + s.d[0] * d * by_K2 + s.e[0] * e * by_K3;
+    out.nb = s.k[1] * by_K1 + s.d[1] * d * by_K2 + s.e[1] * e * by_K3;
+    out.nc = (by_K2 * s.t * s.t + by_K3 * s.u * s.u) * c;
+  }
   out.ca = elastic[0] * out.na + elastic[1] * out.nb, out.cb = elastic[1] * out.na + elastic[0] * out.nb;
   out.cc = elastic[2] * out.nc;
   return out;
@@ -72,8 +82,8 @@ COURANT_INLINE Real root_near_1(Real F, Real per_M) {
 // Newton's method for q along the normal of the surface at the present point, which comes to a convex surface
 // from without: q/Y - e (n C n/Y + H q/Y^2) = 1 with the normal n; `far` from it by roots, each for its own
 // points.
-template <int N, bool far>
-bool approach_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
+template <int N, bool one, bool far>
+bool approach_by(const SheetSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
                  BarlatPoints& p) {
   constexpr Real round_off = 1e-15, close = 1e-9, far_from = 1.1;
   Real *sa = block.stress[0], *sb = block.stress[1], *sab = block.stress[3], *plastic = p.at.plastic;
@@ -82,7 +92,7 @@ bool approach_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, con
 #pragma omp simd reduction(max : left, most)
   for (Index i = 0; i < block.count; ++i) {
     const Real per_Y = 1 / (p.at.stress[i] > none ? p.at.stress[i] : none);
-    const AtPoint n = at_point<N>(s, elastic, sa[i] * per_Y, sb[i] * per_Y, sab[i] * per_Y);
+    const AtPoint n = at_point<N, one>(s, elastic, sa[i] * per_Y, sb[i] * per_Y, sab[i] * per_Y);
     const Real q = far ? to_power(n.F, per_M) : root_near_1(n.F, per_M), over = q - 1, to_normal = q / n.F;
     const Real stiffness = (n.na * n.ca + n.nb * n.cb + n.nc * n.cc) * per_Y * to_normal * to_normal;
     // a bend of the yield stress may lead below the surface
@@ -96,14 +106,14 @@ bool approach_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, con
     p.a[i] += x * n.na, p.b[i] += x * n.nb, plastic[i] += e;
   }
   if constexpr (!far)
-    if (most > far_from) approach_by<N, true>(s, elastic, block, p);
+    if (most > far_from) approach_by<N, one, true>(s, elastic, block, p);
   return left > 0 || most > far_from;
 }
 
 // Flow along the normal at the end of the step: n (trial - e C n) = Y(e) with the normal at the present
 // point, of which q = n s. Only of steps within which the normal changes little.
-template <int N>
-void turn_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
+template <int N, bool one>
+void turn_by(const SheetSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
              BarlatPoints& p) {
   constexpr Real little = 0.5;
   Real *sa = block.stress[0], *sb = block.stress[1], *sab = block.stress[3], *plastic = p.at.plastic;
@@ -111,7 +121,7 @@ void turn_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const P
 #pragma omp simd
   for (Index i = 0; i < block.count; ++i) {
     const Real Y = p.at.stress[i] > none ? p.at.stress[i] : none, per_Y = 1 / Y;
-    const AtPoint n = at_point<N>(s, elastic, sa[i] * per_Y, sb[i] * per_Y, sab[i] * per_Y);
+    const AtPoint n = at_point<N, one>(s, elastic, sa[i] * per_Y, sb[i] * per_Y, sab[i] * per_Y);
     const Real to_normal = root_near_1(n.F, per_M) / n.F;
     const Real stiffness = (n.na * n.ca + n.nb * n.cb + n.nc * n.cc) * to_normal * to_normal;
     const Real along = (n.na * p.trial_a[i] + n.nb * p.trial_b[i] + n.nc * p.trial_ab[i]) * to_normal;
@@ -126,20 +136,27 @@ void turn_by(const BarlatSurface& s, const std::array<Real, 3>& elastic, const P
   }
 }
 
-template <int N>
-bool step_by(bool turning, const BarlatSurface& s, const std::array<Real, 3>& elastic,
-             const PointBlock& block, BarlatPoints& p) {
-  if (!turning) return approach_by<N, false>(s, elastic, block, p);
-  turn_by<N>(s, elastic, block, p);
+template <int N, bool one>
+bool step_by(bool turning, const SheetSurface& s, const std::array<Real, 3>& elastic, const PointBlock& block,
+             BarlatPoints& p) {
+  if (!turning) return approach_by<N, one, false>(s, elastic, block, p);
+  turn_by<N, one>(s, elastic, block, p);
   return true;
 }
 
-bool step(bool turning, const BarlatSurface& surface, const std::array<Real, 3>& elastic,
+template <bool one>
+bool step_of(bool turning, const SheetSurface& surface, const std::array<Real, 3>& elastic,
+             const PointBlock& block, BarlatPoints& points) {
+  if (surface.M == 2) return step_by<2, one>(turning, surface, elastic, block, points);
+  if (surface.M == 6) return step_by<6, one>(turning, surface, elastic, block, points);
+  if (surface.M == 8) return step_by<8, one>(turning, surface, elastic, block, points);
+  return step_by<0, one>(turning, surface, elastic, block, points);
+}
+
+bool step(bool turning, const SheetSurface& surface, const std::array<Real, 3>& elastic,
           const PointBlock& block, BarlatPoints& points) {
-  if (surface.M == 2) return step_by<2>(turning, surface, elastic, block, points);
-  if (surface.M == 6) return step_by<6>(turning, surface, elastic, block, points);
-  if (surface.M == 8) return step_by<8>(turning, surface, elastic, block, points);
-  return step_by<0>(turning, surface, elastic, block, points);
+  return surface.one ? step_of<true>(turning, surface, elastic, block, points)
+                     : step_of<false>(turning, surface, elastic, block, points);
 }
 
 void settle(Real by_plane, const PointBlock& block, const BarlatPoints& p, Real* rate_zz) {

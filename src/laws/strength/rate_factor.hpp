@@ -27,6 +27,9 @@ struct RateLoops {
   /// Times 1 + (C + C2 ln x) ln x, x = max(rate/rate0, 1); times x^C.
   void (*logarithmic)(Real rate0, Real C, Real C2, YieldPoints& points);
   void (*power_of_rate)(Real rate0, Real C, YieldPoints& points);
+  void (*power_above_1)(Real rate0, Real C, YieldPoints& points);  ///< times (1 + rate/rate0)^C
+  /// Plus Q (1 - e^(-C e)).
+  void (*voce)(Real Q, Real C, YieldPoints& points);
   /// ln of rates; of rate 0 that of a tiny one.
   void (*logarithm)(Index count, const Real* rate, Real* out);
   /// Not above `most`, then times `factor` of each point; null: 1.

@@ -91,6 +91,25 @@ void power_of_rate(Real rate0, Real C, YieldPoints& points) {
   }
 }
 
+void power_above_1(Real rate0, Real C, YieldPoints& points) {
+  if (leave_still(points)) return;
+  const Real per_rate0 = 1 / rate0;
+#pragma omp simd
+  for (Index i = 0; i < points.count; ++i) {
+    const Real x = 1 + points.rate[i] * per_rate0, factor = to_power(x, C);
+    points.by_rate[i] = points.stress[i] * C * factor * per_rate0 / x;
+    points.stress[i] *= factor, points.by_strain[i] *= factor;
+  }
+}
+
+void voce(Real Q, Real C, YieldPoints& points) {
+#pragma omp simd
+  for (Index i = 0; i < points.count; ++i) {
+    const Real left = exponential(-C * points.plastic[i]);
+    points.stress[i] += Q * (1 - left), points.by_strain[i] += Q * C * left;
+  }
+}
+
 void logarithm(Index count, const Real* rate, Real* out) {
   constexpr Real least = 1e-300;
 #pragma omp simd
@@ -114,7 +133,8 @@ void limit(Real most, const Real* factor, YieldPoints& points) {
 }  // namespace
 
 RateLoops rate_loops() {
-  return {&scale, &add, &power_law, &power_hardening, &logarithmic, &power_of_rate, &logarithm, &limit};
+  return {&scale,         &add,           &power_law, &power_hardening, &logarithmic,
+          &power_of_rate, &power_above_1, &voce,      &logarithm,       &limit};
 }
 
 }  // namespace courant::COURANT_SIMD

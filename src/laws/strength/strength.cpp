@@ -17,6 +17,17 @@ void add_to_strength_registry(StrengthEntry entry) {
   all.insert(place, std::move(entry));
 }
 
+std::vector<LawAddition>& law_additions() {
+  static std::vector<LawAddition> additions;
+  return additions;
+}
+
+std::shared_ptr<StrengthLaw> with_additions(const Deck& deck, const Model& model, Id mid,
+                                            std::shared_ptr<StrengthLaw> law) {
+  for (const LawAddition& add : law_additions()) law = add(deck, model, mid, std::move(law));
+  return law;
+}
+
 Real StrengthLaw::plane_modulus() const {
   const Real K = bulk_modulus(), G = shear_modulus();
   return 4 * G * (3 * K + G) / (3 * K + 4 * G);

@@ -30,6 +30,10 @@ struct HistoryVariable {
 /// Name of a history number that becomes 1 beside elements that are deleted.
 inline constexpr const char* beside_deleted = "beside_deleted_elements";
 
+/// Name of a history number that elements lay at the start: the cube root of the volume of a solid or
+/// particle, the square root of the area of a shell. 0: no element. [L]
+inline constexpr const char* element_size = "element_size";
+
 /// Failure strains from here on say that nothing fails.
 inline constexpr Real never_fails = 1e10;
 
@@ -103,6 +107,14 @@ struct StrengthEntry {
 std::vector<StrengthEntry>& strength_registry();
 void add_to_strength_registry(StrengthEntry entry);
 
+/// What cards beside that of a material make of its law: damage and failure. Returns the law itself where no
+/// card is for the material.
+using LawAddition = std::function<std::shared_ptr<StrengthLaw>(const Deck&, const Model&, Id mid,
+                                                               std::shared_ptr<StrengthLaw> law)>;
+std::vector<LawAddition>& law_additions();
+std::shared_ptr<StrengthLaw> with_additions(const Deck& deck, const Model& model, Id mid,
+                                            std::shared_ptr<StrengthLaw> law);
+
 /// Card must have a member mid and a function law(), a std::shared_ptr<StrengthLaw> made from valid cards,
 /// and may have check(deck, diagnostics), both with the model as last but one or only argument where they
 /// need its curves; with laws that are `deviator_only` a static constexpr bool of that name, so that messages
@@ -126,9 +138,9 @@ struct RegisterStrength {
       std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>> laws;
       for (const Card& card : deck.all<Card>())
         if constexpr (requires { card.law(model); })
-          laws.emplace_back(card.mid, card.law(model));
+          laws.emplace_back(card.mid, with_additions(deck, model, card.mid, card.law(model)));
         else
-          laws.emplace_back(card.mid, card.law());
+          laws.emplace_back(card.mid, with_additions(deck, model, card.mid, card.law()));
       return laws;
     };
     entry.check = &check_cards<Card>;

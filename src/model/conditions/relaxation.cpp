@@ -15,13 +15,20 @@ namespace courant {
 namespace {
 
 using R = RelaxationCard;
-const RegisterKeyword<R> control_dynamic_relaxation{control_dynamic_relaxation_table()};
+/// Cards of IDRFLG 3 and 6, which are refused: with others nothing of them counts.
+KeywordTable relaxation_keyword() {
+  KeywordTable out = control_dynamic_relaxation_table();
+  for (int card = 0; card < 3; ++card)
+    out.cards.push_back({.fields = std::vector<FieldSpec>(2), .optional = true});
+  return out;
+}
+const RegisterKeyword<R> control_dynamic_relaxation{relaxation_keyword()};
 
 bool is_load_or_motion(const KeywordSpec& spec, const FieldSpec& field) {
   if (!spec.lacking.empty() || !(field.curve_of || field.rules.curve.known())) return false;
   const std::string& name = spec.names[0];
   return name.starts_with("LOAD_") || name.starts_with("DAMPING_") || name.starts_with("BOUNDARY_") ||
-         name.starts_with("RIGIDWALL_");
+         name.starts_with("RIGIDWALL_") || name.starts_with("INITIAL_AXIAL_FORCE");
 }
 
 /// Where a curve gets the value that it keeps. [T]

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/rotation.hpp"
 #include "keyword/registry.hpp"
 #include "model/transforms/transformation.hpp"
 
@@ -48,6 +49,14 @@ const MatRigid* mat_rigid_of(const Deck& deck, Id mid) {
   for (const MatRigid& m : deck.all<MatRigid>())
     if (m.mid == mid) return &m;
   return nullptr;
+}
+
+std::optional<Matrix> axes_of_material(const MatRigid& m, const Model& model) {
+  const Vec A(m.lco, m.a2, m.a3), V(m.v1, m.v2, m.v3);
+  if (V != Vec::Zero()) return axes_from(A, V);
+  const auto system = model.coordinate_systems.find(static_cast<Id>(m.lco));
+  if (m.lco == 0 || system == model.coordinate_systems.end()) return std::nullopt;
+  return system->second.axes;
 }
 
 }  // namespace courant

@@ -82,15 +82,6 @@ Vec driven_momentum(const RigidBody& b, Vec L, const Clock& clock) {
   return L;
 }
 
-/// The axes of LCO or A1 to V3 of the *MAT_RIGID of a body; nothing where it gives none.
-std::optional<Matrix> axes_of_material(const MatRigid& m, const Model& model) {
-  const Vec A(m.lco, m.a2, m.a3), V(m.v1, m.v2, m.v3);
-  if (V != Vec::Zero()) return axes_from(A, V);
-  const auto system = model.coordinate_systems.find(static_cast<Id>(m.lco));
-  if (m.lco == 0 || system == model.coordinate_systems.end()) return std::nullopt;
-  return system->second.axes;
-}
-
 class Follower {
  public:
   Follower(const Deck& deck, const Model& model, Diagnostics& diagnostics)
@@ -230,7 +221,14 @@ void RigidBodies::follow(const std::vector<PrescribedMotion>& motions, const Dec
       return motion.local && motion.part >= 0 &&
              model.parts[static_cast<std::size_t>(motion.part)].mid == m.mid;
     });
-    if (m.lco != 0 && !used)
+    const auto& orientations = deck.all<PrescribedOrientation>();
+    const bool oriented =
+        std::any_of(orientations.begin(), orientations.end(), [&](const PrescribedOrientation& card) {
+          const auto part = model.part_of_id.find(card.pidb);
+          return part != model.part_of_id.end() &&
+                 model.parts[static_cast<std::size_t>(part->second)].mid == m.mid;
+        });
+    if (m.lco != 0 && !used && !oriented)
       deck.warning(
           diagnostics, m, "LCO",
           "has no effect: results are written along global axes, and no motion _LOCAL is along these",
@@ -239,6 +237,16 @@ void RigidBodies::follow(const std::vector<PrescribedMotion>& motions, const Dec
   Follower follower(deck, model, diagnostics);
   for (const PrescribedMotion& motion : motions)
     if (motion.body != 0) follower.add(motion, bodies_);
+}
+
+void RigidBodies::turn(std::size_t body, const MotionSource& source, Real birth, Real death,
+                       const Entry& card) {
+  for (int axis = 0; axis < 3; ++axis) {
+    PrescribedMotion motion;
+    motion.turns = true, motion.direction = Vec::Unit(axis), motion.birth = birth, motion.death = death;
+    motion.source = &source, motion.component = 3 + axis, motion.card = card;
+    bodies_[body].motions.push_back(std::move(motion));
+  }
 }
 
 void RigidBodies::drive(std::size_t body, const MotionSource& source) {

@@ -145,6 +145,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
               Diagnostics& diagnostics);
   /// Lets a body take the velocities of `source`, which lives as long, in all directions that are not held.
   void drive(std::size_t body, const MotionSource& source);
+  /// Lets a body turn as `source` says, between two times.
+  void turn(std::size_t body, const MotionSource& source, Real birth, Real death, const Entry& card);
   /// For contact with their faces. Refers to this object.
   WallBodies wall_bodies(World& world);
   /// Adds to what moves a body in the coming step, after forces were summed; what holds the body takes its

@@ -78,9 +78,11 @@ class StrengthStress : public Material {
     for (const auto& law : laws_) {
       history_.emplace_back();
       if (!law) continue;
-      for (const HistoryVariable& h : law->history())
+      for (const HistoryVariable& h : law->history()) {
         history_.back().push_back(&world.particles.fields.add<Real>(
             {.name = h.name, .dimension = h.dimension, .components = h.components, .output = true}));
+        if (h.name == element_size) lay_sizes(s, world, *history_.back().back());
+      }
     }
   }
   std::string name() const override { return "strength"; }
@@ -112,6 +114,13 @@ class StrengthStress : public Material {
   }
 
  private:
+  /// Of a plane the width of a particle.
+  static void lay_sizes(const SphSettings& s, const World& world, Field<Real>& size) {
+    const Particles& p = world.particles;
+    for (Index i = 0; i < p.size(); ++i)
+      if (s.strength[static_cast<std::size_t>(p.part[i])])
+        size[i] = std::pow(p.m[i] / p.rho[i], Real(1) / world.dim);
+  }
   void advance(Particles& p, Real dt, Index begin, Index end) {
     const StrengthLaw& law = *laws_[p.part[begin]];
     Points64 at;

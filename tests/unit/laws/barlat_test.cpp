@@ -1,4 +1,5 @@
-// Sheets of *MAT_036 and *MAT_122 against the surfaces of Barlat and Lian (1989) and Hill (1948).
+// Sheets of *MAT_036, *MAT_122 and *MAT_133 against the surfaces of Barlat and Lian (1989), Hill (1948) and
+// Barlat et al. (2003).
 #include "laws/strength/barlat.hpp"
 
 #include <gtest/gtest.h>
@@ -208,4 +209,107 @@ TEST(Barlat, LongStepsEndOnTheSurface) {
     }
   }
   use_instruction_set(instruction_sets().back());
+}
+
+namespace {
+
+/// q of the paper (Barlat et al. 2003) by two linear functions of the deviator, whose principal values are
+/// taken.
+Real effective_of_paper(const std::array<Real, 8>& a, Real m, Real x, Real y, Real t) {
+  const Eigen::Vector3d s((2 * x - y) / 3, (2 * y - x) / 3, t);
+  Eigen::Matrix3d one, two;
+  one << a[0], 0, 0, 0, a[1], 0, 0, 0, a[6];
+  two << 4 * a[4] - a[2], 2 * a[5] - 2 * a[3], 0, 2 * a[2] - 2 * a[4], 4 * a[3] - a[5], 0, 0, 0, 3 * a[7];
+  const auto principal = [](const Eigen::Vector3d& v) {
+    const Real mean = 0.5 * (v[0] + v[1]), radius = std::hypot(0.5 * (v[0] - v[1]), v[2]);
+    return std::pair{mean + radius, mean - radius};
+  };
+  const auto [p, q] = principal(one * s);
+  const auto [u, v] = principal(two * s / 3);
+  const auto power = [&](Real value) { return std::pow(std::abs(value), m); };
+  return std::pow((power(p - q) + power(2 * v + u) + power(2 * u + v)) / 2, 1 / m);
+}
+
+/// 2090-T3, exponent 8, of the same paper.
+constexpr std::array<Real, 8> alloy{0.4865, 1.3783, 0.7536, 1.0246, 1.0363, 0.9036, 1.2321, 1.4858};
+
+std::string yld2000_cards(const std::array<Real, 8>& a, const std::string& hardening) {
+  return fmt::format("1,2.0,200.0,0.3,0,0,0,1\n{}\n{},{},{},{},{},{},{},{}\n0\n\n\n", hardening, a[0], a[1],
+                     a[2], a[3], a[4], a[5], a[6], a[7]);
+}
+
+}  // namespace
+
+// The surface of the paper, along all directions; and what it gives there for 2090-T3 over the yield stress
+// along the direction of rolling and as ratios of strains.
+TEST(Yld2000, TensionYieldsAndThinsAsThePaperHasIt) {
+  const auto law =
+      test::law_from_cards("MAT_BARLAT_YLD2000", yld2000_cards(alloy, "0.3,0.001,0.1,0,0,1,8.0"));
+  const auto q = [](Real x, Real y, Real t) { return effective_of_paper(alloy, 8, x, y, t); };
+  Real along_0 = 0;
+  for (int degrees = 0; degrees <= 90; degrees += 15) {
+    const Real angle = degrees * pi / 180, c = std::cos(angle), s = std::sin(angle), d = 1e-6;
+    const Pulled found = stretch(law, angle, 0.02, 2000);
+    const Real yield = 0.3 * std::pow(0.001 + found.plastic, 0.1);
+    EXPECT_NEAR(found.stress * q(c * c, s * s, s * c), yield, 1e-8 * yield) << degrees;
+    const auto slope = [&](Real x, Real y, Real t) {
+      return (q(c * c + d * x, s * s + d * y, s * c + d * t) -
+              q(c * c - d * x, s * s - d * y, s * c - d * t)) /
+             (2 * d);
+    };
+    const Real across = s * s * slope(1, 0, 0) + c * c * slope(0, 1, 0) - s * c * slope(0, 0, 1);
+    const Real ratio = -across / (slope(1, 0, 0) + slope(0, 1, 0));
+    EXPECT_NEAR(found.ratio, ratio, 3e-3 * ratio) << degrees;
+    const Real stress = 1 / q(c * c, s * s, s * c);
+    if (degrees == 0) along_0 = stress;
+    // table of the paper: 1, 0.811, 0.910 and 0.21, 1.58, 0.69
+    const std::array<Real, 3> published{degrees == 0    ? 1
+                                        : degrees == 45 ? 0.811
+                                                        : 0.910,
+                                        degrees == 0    ? 0.21
+                                        : degrees == 45 ? 1.58
+                                                        : 0.69,
+                                        0};
+    if (degrees % 45 == 0) {
+      EXPECT_NEAR(stress / along_0, published[0], 5e-3) << degrees;
+      EXPECT_NEAR(ratio, published[1], 0.03) << degrees;
+    }
+  }
+}
+
+// All coefficients 1: the surface of Hosford, which that of Barlat and Lian is with all ratios 1.
+TEST(Yld2000, IsBarlatsWithoutDirections) {
+  const auto old = test::law_from_cards("MAT_3-PARAMETER_BARLAT",
+                                        "1,2.0,200.0,0.3,2,0.3,0.1\n8.0,1.0,1.0,1.0,0,0.001\n0\n\n\n"),
+             general = test::law_from_cards(
+                 "MAT_BARLAT_YLD2000", yld2000_cards({1, 1, 1, 1, 1, 1, 1, 1}, "0.3,0.001,0.1,0,0,1,8.0"));
+  DrivenPoint a(old, true), b(general, true);
+  for (int n = 0; n < 300; ++n) {
+    const std::array<Real, 6> step{
+        1e-4 * std::cos(0.02 * n), 1e-4 * std::sin(0.03 * n), 0, 5e-5 * std::cos(0.05 * n), 0, 0};
+    a.strain(step), b.strain(step);
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(a.stress[k], b.stress[k], 1e-11) << n;
+  }
+  EXPECT_GT(a.of("plastic_strain"), 0.01);
+}
+
+// Hardening of Voce, Gosh, Hockett and Sherby, and by a curve; ISCALE 0 lets tension along a yield at it.
+TEST(Yld2000, HardensByItsLaws) {
+  const auto law = [](const std::string& hardening, const std::string& p4, int iscale) {
+    const std::array<Real, 8>& a = alloy;
+    return test::law_from_cards(
+        "MAT_BARLAT_YLD2000",
+        fmt::format("1,2.0,200.0,0.3,0,0,0,{}\n{}\n{},{},{},{},{},{},{},{}\n0,0,{}\n\n\n*DEFINE_CURVE\n9\n0."
+                    "0,0.2\n0.1,0.3\n",
+                    iscale, hardening, a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], p4));
+  };
+  const auto expect = [&](const std::string& hardening, const std::string& p4, const auto& yield) {
+    const Pulled found = stretch(law(hardening, p4, 0), 0, 0.02, 500);
+    EXPECT_NEAR(found.stress, yield(found.plastic), 1e-8) << hardening;
+    EXPECT_GT(found.plastic, 0.015);
+  };
+  expect("0.4,0.2,20.0,0,0,2,8.0", "0", [](Real e) { return 0.4 - 0.2 * std::exp(-20 * e); });
+  expect("0.4,0.2,5.0,0,0,5,8.0", "0.7", [](Real e) { return 0.4 - 0.2 * std::exp(-5 * std::pow(e, 0.7)); });
+  expect("0.4,0.01,0.2,0,0,4,8.0", "0.02", [](Real e) { return 0.4 * std::pow(0.01 + e, 0.2) - 0.02; });
+  expect("0,0,0,0,0,-9,8.0", "0", [](Real e) { return 0.2 + e; });
 }

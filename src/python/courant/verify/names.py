@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 OUTCOMES = ["residual", "error", "ratio", "leaked", "penetration", "steps"]
 
 # So fixed a form leaves a division a division: `global/total/2`.
-_HISTORY = re.compile(r"(?<!\w)(global|(?:parts|contacts|rigid_bodies|particles|nodes)/\d+)/\w+(?:\.([xyz])(?!\w))?", re.ASCII)
+_HISTORY = re.compile(r"(?<!\w)(global|(?:parts|contacts|rigid_bodies|rigid_walls|particles|nodes|solids|shells|beams|springs|sections|joints|welds|tracers)/\d+)/\w+(?:\.([xyz])(?!\w))?", re.ASCII)
 
 
 @dataclass(frozen=True)

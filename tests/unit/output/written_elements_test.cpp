@@ -13,7 +13,7 @@
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
-namespace courant::element_reports_test {
+namespace courant::written_elements_test {
 namespace {
 
 using test::do_nothing;
@@ -64,12 +64,12 @@ WeldForce first_force_of_weld(const Vec& velocity, const Vec& spin) {
 
 // Welds are round: motions along x, y and across have the same shear and bending, and no torsion; turning
 // about the weld is torsion alone. Small motions; the rest is of second order.
-TEST(ElementReports, WeldsAreAlikeInAllDirections) {
+TEST(WrittenElements, WeldsAreAlikeInAllDirections) {
   const WeldForce x = first_force_of_weld(Vec(1, 0, 0), Vec::Zero());
   ASSERT_GT(x.shear, 0);
   ASSERT_GT(x.moment + 1e-9 * x.shear, 0);
-  for (const Vec& along : {Vec(0, 1, 0), Vec(0.6, 0.8, 0)}) {
-    const WeldForce other = first_force_of_weld(along, Vec::Zero());
+  for (const Vec& shear : {Vec(0, 1, 0), Vec(0.6, 0.8, 0)}) {
+    const WeldForce other = first_force_of_weld(shear, Vec::Zero());
     EXPECT_NEAR(other.shear, x.shear, 1e-6 * x.shear);
     EXPECT_NEAR(other.moment, x.moment, 1e-6 * x.shear);
     EXPECT_NEAR(other.torsion, 0, 1e-6 * x.shear);
@@ -85,7 +85,7 @@ TEST(ElementReports, WeldsAreAlikeInAllDirections) {
 
 // Resultants are tension, shear along s and t, moments about s and t, torsion: each its stiffness times its
 // motion, v (1, 2, 3) and w (1, 2, 3) over one step.
-TEST(ElementReports, DiscreteBeamsNameTheirForcesInOrder) {
+TEST(WrittenElements, DiscreteBeamsNameTheirForcesInOrder) {
   test::beams::BeamDeck deck;
   deck.at({0, 0, 0}, ",7,7"), deck.at({2, 0, 0});
   deck.beam(1, 1, 2);
@@ -108,7 +108,7 @@ TEST(ElementReports, DiscreteBeamsNameTheirForcesInOrder) {
 
 // An element whose first side is along global y: its axes are y and -x: what is xx in global axes is yy
 // in local ones.
-TEST(ElementReports, AxesOfElout) {
+TEST(WrittenElements, AxesOfElout) {
   std::array<Real, 6> of[2];
   for (const int local : {0, 1}) {
     test::ShellDeck deck;
@@ -125,7 +125,7 @@ TEST(ElementReports, AxesOfElout) {
     EXPECT_NEAR(of[1][k], of[0][1 - k], 1e-3 * std::abs(of[0][0]));
 }
 
-TEST(ElementReports, PointsOfSolidsInElout) {
+TEST(WrittenElements, PointsOfSolidsInElout) {
   for (const int points : {1, 8}) {
     test::SolidDeck deck;
     deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
@@ -139,7 +139,7 @@ TEST(ElementReports, PointsOfSolidsInElout) {
 
 // A stretched shell that turns at one side is plastic at one face more than at the other: each number of a
 // layer is of that layer, and nodes are displaced by what they moved.
-TEST(ElementReports, FieldsOfLayersAndNodes) {
+TEST(WrittenElements, FieldsOfLayersAndNodes) {
   test::ShellDeck deck;
   deck.plate(1, 1, 1, 1, 1);
   deck.part(1, 0.1, "*MAT_PLASTIC_KINEMATIC\n1,1.0,1000.0,0.3,0.5,10.0\n");
@@ -170,4 +170,4 @@ TEST(ElementReports, FieldsOfLayersAndNodes) {
   }
 }
 
-}  // namespace courant::element_reports_test
+}  // namespace courant::written_elements_test
