@@ -81,12 +81,11 @@ class ForceReader {
       update_in_beam(*part.law, points, &across);
     });
     if (kept != Keeps::all)
-      return error(
-                 card, "SCALE",
-                 fmt::format(
-                     "an axial force of {:.4g} is a stress of {:.4g} in beam {}, beyond what its material yields at",
-                     most, most / m.A, id),
-                 "lower it, or give the beam a larger section"),
+      return error(card, "SCALE",
+                   fmt::format("an axial force of {:.4g} is a stress of {:.4g} in beam {}, beyond what its "
+                               "material yields at",
+                               most, most / m.A, id),
+                   "lower it, or give the beam a larger section"),
              false;
     part.preload.add(part.beams.size(), found->second.second, force);
     return true;
