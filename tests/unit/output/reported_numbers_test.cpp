@@ -1,5 +1,5 @@
 // What passes report, each number another one, and where it is found: texts of joints, welds, springs,
-// elements and sections, field arrays, binout, the summary. Sections against forces by hand.
+// elements and sections, field arrays, the summary. Sections against forces by hand.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -8,6 +8,7 @@
 #include <cstring>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 
 #include "elements/beam/weld.hpp"
 #include "elements/discrete/discrete.hpp"
@@ -15,7 +16,6 @@
 #include "elements/histories/secforc.hpp"
 #include "extension/additions.hpp"
 #include "output/ascii/ascii.hpp"
-#include "output/binout/binout.hpp"
 #include "output/fields/field_data.hpp"
 #include "output/fields/stress_invariants.hpp"
 #include "output/fields/vtk_arrays.hpp"
@@ -79,6 +79,8 @@ struct FakeReports : Pass, JointReporter, WeldReporter, SpringReporter {
     out.push_back({6, true, {6.6, 7.7, 8.8}, 9.9, 1.2});
   }
   std::optional<SpringForce> find_spring(Id) const override { return std::nullopt; }
+  const ElementGroup& spring_group() const override { throw std::logic_error("no group"); }
+  SpringForce spring(Index) const override { return {}; }
 };
 
 }  // namespace
@@ -104,7 +106,7 @@ TEST(ReportedNumbers, OfElements) {
   const Real mises =
       std::sqrt(0.5 * (1.1 * 1.1 + 1.2 * 1.2 + 2.3 * 2.3) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
   const auto text = [&](ElementKind kind, int history) {
-    return elout_text(kind, {one}, clock, false, history);
+    return elout_text(kind, {one}, clock, {.local = false, .history = history});
   };
   const std::vector<Real> six(s.begin(), s.end());
   std::vector<Real> solid{0.5}, shell{0.5}, with_history{0.5};
@@ -357,74 +359,6 @@ TEST(ReportedNumbers, OfFields) {
   EXPECT_EQ(reals_of(solid_data(b.world, options), "part"), (std::vector<Real>{70, 70}));
   shared_fields::eroded.add(of_bricks)[0] = 1;
   EXPECT_EQ(reals_of(solid_data(b.world, options), "shown"), (std::vector<Real>{22}));
-}
-
-// binout has the numbers of the texts by LS-DYNA's names.
-TEST(ReportedNumbers, OfBinout) {
-  Sample s;
-  s.t = 0.5;
-  using Kind = BoundaryForce::Kind;
-  s.boundary_forces.push_back({Kind::driven_point, 31, {1, 2, 3}, Vec::Zero(), 4});
-  s.boundary_forces.push_back({Kind::driven_body, 32, {5, 6, 7}, {8, 9, 10}, 11});
-  s.boundary_forces.push_back({Kind::held_point, 33, {12, 13, 14}, Vec::Zero(), 0});
-  s.boundary_forces.push_back({Kind::held_rotation, 34, Vec::Zero(), {15, 16, 17}, 0});
-  InterfaceForce contact;
-  contact.id = 41, contact.on_surfa = {21, 22, 23};
-  contact.energy_stored = 24, contact.energy_damping = 25, contact.energy_friction = 26;
-  s.interfaces = {contact};
-  RigidBodyMotion m{.part = 51};
-  m.axes << 1, 2, 3, 4, 5, 6, 7, 8, 9;
-  m.x = {61, 62, 63}, m.displacement = {64, 65, 66}, m.rotation = {67, 68, 69}, m.v = {70, 71, 72};
-  m.omega = {73, 74, 75}, m.a = {76, 77, 78}, m.angular_a = {79, 80, 81};
-  s.body_motions = {m};
-  ParticleSample p{.id = 9, .p = 100, .rho = 101, .h = 102};
-  p.tau = {1, 2, 3, 4, 5, 6};
-  s.particles = {p};
-  s.rigid_walls.push_back({.id = 8, .title = "", .normal = 91, .force = {92, 93, 94}});
-  NodeSample n{.id = 7, .turns = true};
-  n.displacement = {1, 2, 3}, n.v = {4, 5, 6}, n.a = {7, 8, 9}, n.x = {10, 11, 12};
-  n.rotation = {13, 14, 15}, n.omega = {16, 17, 18}, n.angular_a = {19, 20, 21};
-  s.nodes = {n};
-  const auto values = [&](const char* history, const std::string& name) {
-    for (const LsdaArray& array : binout_state(history, s, 0, 1))
-      if (array.name == name) {
-        std::vector<Real> out(array.bytes.size() / sizeof(Real));
-        std::memcpy(out.data(), array.bytes.data(), array.bytes.size());
-        return out;
-      }
-    return std::vector<Real>();
-  };
-  using Values = std::vector<Real>;
-  EXPECT_EQ(values("bndout", "y_force"), Values{2});
-  EXPECT_EQ(values("bndout", "energy"), Values{4});
-  EXPECT_EQ(values("bndout", "body_z_force"), Values{7});
-  EXPECT_EQ(values("bndout", "body_energy"), Values{11});
-  EXPECT_EQ(values("bndout", "body_x_moment"), Values{8});
-  EXPECT_EQ(values("spcforc", "z_force"), Values{14});
-  EXPECT_EQ(values("spcforc", "y_moment"), Values{16});
-  EXPECT_EQ(values("spcforc", "x_resultant"), Values{12});
-  EXPECT_EQ(values("rcforc", "x_force"), (Values{21, -21}));
-  EXPECT_EQ(values("sleout", "slave"), Values{75});
-  EXPECT_EQ(values("sleout", "frictional_energy"), Values{26});
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      EXPECT_EQ(values("rbdout", fmt::format("dircos_{}{}", i + 1, j + 1)), Values{m.axes(i, j)});
-  Real next = 61;
-  for (const char* name :
-       {"global_{}", "global_d{}", "global_rd{}", "global_v{}", "global_rv{}", "global_a{}", "global_ra{}"})
-    for (const char axis : {'x', 'y', 'z'})
-      EXPECT_EQ(values("rbdout", fmt::format(fmt::runtime(name), axis)), Values{next++}) << name;
-  EXPECT_EQ(values("sphout", "sig_yy"), Values{2 - 100});
-  EXPECT_EQ(values("sphout", "sig_yz"), Values{5});
-  EXPECT_EQ(values("sphout", "density"), Values{101});
-  EXPECT_EQ(values("sphout", "smooth"), Values{102});
-  EXPECT_EQ(values("rwforc", "normal_force"), Values{91});
-  EXPECT_EQ(values("rwforc", "z_force"), Values{94});
-  next = 1;
-  for (const char* name : {"{}_displacement", "{}_velocity", "{}_acceleration", "{}_coordinate",
-                           "r{}_displacement", "r{}_velocity", "r{}_acceleration"})
-    for (const char axis : {'x', 'y', 'z'})
-      EXPECT_EQ(values("nodout", fmt::format(fmt::runtime(name), axis)), Values{next++}) << name;
 }
 
 // Each number of the summary's ledger and times under its own name.

@@ -8,6 +8,7 @@
 #include "../../verification/structures/solid_decks.hpp"
 #include "elements/beam/weld.hpp"
 #include "elements/element_report.hpp"
+#include "extension/additions.hpp"
 #include "output/ascii/ascii.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"

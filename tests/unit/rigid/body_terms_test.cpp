@@ -409,4 +409,21 @@ TEST(BodyTerms, LocalDrivesGoAlongTheAxesOfTheCard) {
   EXPECT_NEAR((s->bodies()->bodies()[0].v - Vec(-3, 2, 0)).norm(), 0, 1e-12);
 }
 
+// Two driven axes of a body that is 100 times as easy to turn about the line between them: each answers the
+// moment about the other nearly as its own, 49.5 beside 50.5.
+TEST(BodyTerms, DrivenTurnsAnswerEachOther) {
+  const Matrix turn = Eigen::AngleAxisd(std::atan(1.0), Vec::UnitZ()).toRotationMatrix();
+  JointDeck deck;
+  deck.body({.J = turn * Vec(0.01, 1, 1).asDiagonal() * turn.transpose()});
+  deck.more =
+      "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,5,0,8\n*BOUNDARY_PRESCRIBED_MOTION_RIGID\n1,6,0,9\n"
+      "*DEFINE_CURVE\n8\n0.0,2.0\n9.0,2.0\n*DEFINE_CURVE\n9\n0.0,-1.0\n9.0,-1.0\n"
+      "*CONTROL_TIMESTEP\n0.0,0.9,0,0.0,0.0,4\n*DEFINE_CURVE\n4\n0.0,0.01\n9.0,0.01\n";
+  auto s = simulation_of(deck.text(1));
+  for (int k = 0; k < 3; ++k) s->step(do_nothing);
+  const RigidBody& b = s->bodies()->bodies()[0];
+  EXPECT_NEAR(b.omega[0], 2, 1e-9);
+  EXPECT_NEAR(b.omega[1], -1, 1e-9);
+}
+
 }  // namespace body_terms_test

@@ -60,9 +60,9 @@ const std::string damper_of_02 = "*DEFINE_CURVE\n10\n-100.0,-20.0\n100.0,20.0\n"
 
 }  // namespace
 
-// Springs, dampers, friction and stops: whichever body turns, and which shift, the balance holds through all of
-// it (leapfrog: the square of omega dt/2, 0.25 at the share of the stable step that the joint takes, of the
-// part that swings; an error of a factor of 2 in any energy is above 0.1).
+// Springs, dampers, friction and stops: whichever body turns, and which shift, the balance holds through all
+// of it (leapfrog: the square of omega dt/2, 0.25 at the share of the stable step that the joint takes, of
+// the part that swings; an error of a factor of 2 in any energy is above 0.1).
 TEST(JointMoments, BalanceInBothSensesAndForBothBodies) {
   struct Case {
     const char* what;
