@@ -1,4 +1,4 @@
-// Each number of a sample is found in its place of the text histories and of history.h5.
+// Each number of a sample is found in its column of the text histories and of history.h5.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
