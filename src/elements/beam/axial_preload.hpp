@@ -18,8 +18,8 @@ struct SectionPoint;
 class AxialPreload {
  public:
   bool any() const { return !of_beam_.empty(); }
-  /// Gives the points of beam e, with the stress `xx` of each, the axial force that it has at a time, and adds what
-  /// that changes of the section's axial force and moments about s and t to `sum` (0, 2, 3).
+  /// Gives the points of beam e, with the stress `xx` of each, the axial force that it has at a time, and
+  /// adds what that changes of the section's axial force and moments about s and t to `sum` (0, 2, 3).
   void hold(Index e, Real t, const std::vector<SectionPoint>& points, const BeamMeasures& m,
             Field<Real>& stress, std::array<Real, 6>& sum) const;
   struct AxialForce {
@@ -34,7 +34,8 @@ class AxialPreload {
   std::vector<Index> of_beam_;  ///< into forces_, -1: none
 };
 
-/// Refuses by name: sets that are not there, beams of ELFORM 2 and 6, forces beyond what a material yields at.
+/// Refuses by name: sets that are not there, beams of ELFORM 2 and 6, forces beyond what a material yields
+/// at.
 void read_preloads(const Deck& deck, const Model& model, std::vector<BeamPart>& parts,
                    Diagnostics& diagnostics);
 

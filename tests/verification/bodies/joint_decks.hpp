@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "../structures/solid_decks.hpp"
 #include "rigid/bodies/rigid.hpp"
 #include "rigid/joints/joints.hpp"
-#include "../structures/solid_decks.hpp"
 
 namespace courant::test {
 
