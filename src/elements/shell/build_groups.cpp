@@ -19,6 +19,12 @@ namespace courant {
 
 namespace {
 
+std::array<Vec, 4> corners_at(const World& world, const std::array<Index, 4>& node) {
+  std::array<Vec, 4> x;
+  for (std::size_t c = 0; c < 4; ++c) x[c] = world.nodes.x.vec(node[c]);
+  return x;
+}
+
 /// Degrees between the normals of the triangles on the two sides of a diagonal.
 Real warp_angle(const World& world, const std::array<Index, 4>& node) {
   const auto x = [&](std::size_t c) { return world.nodes.x.vec(node[c]); };
@@ -70,7 +76,7 @@ void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const
     if (!parts[part].law || parts[part].null || node[2] == node[3] || parts[part].control.drilling > 0)
       continue;  // that has a stiffness of warping
     const Real angle = warp_angle(world, node);
-    if (!(angle > parts[part].warp_warning)) continue;
+    if (!(angle > parts[part].warp_warning) || turns_inwards(corners_at(world, node), false)) continue;
     Worst& w = worst[part];
     ++w.count;
     if (angle > w.angle) w.angle = angle, w.id = model.shells[s].id;

@@ -107,6 +107,8 @@ std::string convert_hardening_of(Yld2000& card, const Conversion& conversion) {
   return "";
 }
 
+constexpr FieldRules unsupported_curve{.honour = unsupported.honour, .refers = IdSpace::curve};
+
 // By hand. As *MAT_3-PARAMETER_BARLAT with all R = 1, which is this surface with all coefficients 1: E = 2.5,
 // PR = 1/4, pulled alike along a and b: s = 10/3 0.9 = 3, q = s, stiffness of the normal 5/3. Voce with N =
 // 0: a yield stress of K - E0 = 1 that stays: de = 2/(5/3) = 6/5.
@@ -165,10 +167,10 @@ const RegisterStrength<Yld2000> mat_barlat_yld2000{
                 {"OFFANG", &Yld2000::offang, "-", "angle by which a is turned about the normal, degrees"},
                 {"P4", &Yld2000::p4, "-", "HARD 4: what the power law is lowered by; HARD 5: exponent of e"},
                 {"HTFLAG", &Yld2000::htflag, "-", "stage of heat treatment", unsupported},
-                {"HTA", &Yld2000::hta, "-", "heat treatment", unsupported},
-                {"HTB", &Yld2000::htb, "-", "heat treatment", unsupported},
-                {"HTC", &Yld2000::htc, "-", "heat treatment", unsupported},
-                {"HTD", &Yld2000::htd, "-", "heat treatment", unsupported}}},
+                {"HTA", &Yld2000::hta, "-", "heat treatment", unsupported_curve},
+                {"HTB", &Yld2000::htb, "-", "heat treatment", unsupported_curve},
+                {"HTC", &Yld2000::htc, "-", "heat treatment", unsupported_curve},
+                {"HTD", &Yld2000::htd, "-", "heat treatment", unsupported_curve}}},
           {.fields = fields_of_a<Yld2000>()},
           {.fields = with_fields<Yld2000>(
                fields_of_v<Yld2000>(),

@@ -25,7 +25,7 @@ Stopped run_on(Simulation& s, int steps, int at = -1, const std::function<void(W
       s.step([&](World&, const Clock&, const std::string& who) { dt_set_by = who; });
     }
   } catch (const RunError& error) {
-    add_facts_at_stop(facts, s, error.cause, dt_set_by);
+    add_facts_at_stop(facts, s, error, dt_set_by);
     return {error.what(), error.cause, advice(facts)};
   }
   return {};

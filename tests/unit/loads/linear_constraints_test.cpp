@@ -18,7 +18,7 @@ Vec position(const Simulation& s, Id id) {
     if (n.id[k] == id) return n.x.vec(k);
   return Vec::Constant(std::nan(""));
 }
-std::string refusal(const std::string& text) {
+std::string refusal_of(const std::string& text) {
   Diagnostics diagnostics;
   EXPECT_FALSE(Simulation::build("deck.k", in_memory(text), diagnostics));
   return diagnostics.text();
@@ -98,13 +98,13 @@ TEST(LinearConstraint, VelocitiesAtTheStartAreMadeToFit) {
 
 TEST(LinearConstraint, RefusesByName) {
   const std::string one = "*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n2,1,-1.\n";
-  EXPECT_NE(refusal(masses(one + one)).find("it follows from others, or contradicts them"),
+  EXPECT_NE(refusal_of(masses(one + one)).find("it follows from others, or contradicts them"),
             std::string::npos);
-  EXPECT_NE(refusal(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n9,1,-1.\n")).find("node 9 does not exist"),
+  EXPECT_NE(refusal_of(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n9,1,-1.\n")).find("node 9 does not exist"),
             std::string::npos);
-  EXPECT_NE(refusal(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,4,1.\n2,4,-1.\n")).find("node 1 does not turn"),
+  EXPECT_NE(refusal_of(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,4,1.\n2,4,-1.\n")).find("node 1 does not turn"),
             std::string::npos);
-  EXPECT_NE(refusal(masses("*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,1\n" + one)).find("node 2 is driven"),
+  EXPECT_NE(refusal_of(masses("*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,1\n" + one)).find("node 2 is driven"),
             std::string::npos);
 }
 
@@ -138,7 +138,7 @@ TEST(PerturbationOfNodes, OfASetAlongLocalAxesAndTwice) {
 }
 
 TEST(PerturbationOfNodes, OtherKindsAreRefused) {
-  EXPECT_NE(refusal(sheet("*PERTURBATION_NODE\n8,0,1.,3\n")).find("TYPE"), std::string::npos);
+  EXPECT_NE(refusal_of(sheet("*PERTURBATION_NODE\n8,0,1.,3\n")).find("TYPE"), std::string::npos);
 }
 
 TEST(LinearConstraint, SameBitsAfterARestart) {

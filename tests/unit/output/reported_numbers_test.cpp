@@ -100,7 +100,8 @@ TEST(ReportedNumbers, OfElements) {
   Clock clock;
   clock.t = 0.5;
   EloutElement one{.id = 7, .part = 8, .material = 24};
-  one.report.points.push_back({{1.1, 2.2, 3.4, 4.4, 5.5, 6.6}, 0.7, {0.11, 0.12}});
+  one.report.points.push_back(
+      {.stress = {1.1, 2.2, 3.4, 4.4, 5.5, 6.6}, .plastic = 0.7, .history = {0.11, 0.12}});
   one.report.resultants = {1.2, 2.3, 3.4, 4.5, 5.6, 6.7};
   const auto& s = one.report.points[0].stress;
   const Real mises =
