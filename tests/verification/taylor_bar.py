@@ -189,7 +189,7 @@ def page_johnson_cook(rows):
 
 def page(rows):
     out = ["# Structures", "",
-           "Made by `python3 tests/verification/taylor_bar.py build/release/courant . --all --write`; the coarsest mesh runs with the tests. The section on contact is written by hand.", "",
+           "Made by `python3 tests/verification/taylor_bar.py build/release/courant . --all --write`; the coarsest mesh runs with the tests. The section on contact is written by hand. Error against run time of elements, bodies and contact: [structures](study_structures.md), [bodies](study_bodies.md), [contact](study_contact.md).", "",
            "## Taylor bar of copper", "",
            "A cylinder of copper, 32.4 mm long, radius 3.2 mm, hits a rigid wall with 227 m/s ([the deck](../keyword_decks/taylor_bar/README.md)): a quarter of it,",
            "`*MAT_PLASTIC_KINEMATIC` with isotropic hardening (E 117 GPa, ν 0.35, SIGY 0.4 GPa, ETAN 0.1 GPa, ρ 8930 kg/m³), one-point hexahedra, IHQ 1 with QM 0.1,",
