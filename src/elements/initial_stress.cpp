@@ -167,6 +167,13 @@ class StressReader {
                       "back to that in the first step",
                       deck_.keyword(*first_beyond_), beyond_),
           "check units, material and EPS");
+    if (directional_ > 0)
+      diagnostics_.warning(
+          deck_.where(*first_directional_),
+          fmt::format("{}: {} points start without the elastic energy of their stress, as their material "
+                      "has directions: internal energy may fall below 0 by it",
+                      deck_.keyword(*first_directional_), directional_),
+          "motion and stress do not depend on it");
     if (more_ > 0)
       diagnostics_.note(
           deck_.where(*first_more_),
@@ -206,6 +213,7 @@ class StressReader {
       const GivenPoint point = of_solid(given, p, count);
       if (!put(card, point, point.stress, at, one.id())) return false;
       energy += elastic_energy(*part.law, point.stress) / count;
+      note_directions(card, *part.law, point.stress);
     }
     (*field_of(group, "internal_energy"))[one.e] = energy * group.V0[one.e];
     return true;
@@ -268,6 +276,7 @@ class StressReader {
       local[2] = 0;
       if (!put(card, point, local, at, one.id())) return false;
       energy += elastic_energy(*at.law, local) * part.share[layer] / in_plane_points;
+      note_directions(card, *at.law, local);
     }
     (*field_of(group, "internal_energy"))[one.e] = energy * group.V0[one.e];
     return true;
@@ -332,6 +341,10 @@ class StressReader {
     return true;
   }
 
+  void note_directions(const Entry& card, const StrengthLaw& law, const Stress& s) {
+    if (law.axes() && size_of(s) > 0 && directional_++ == 0) first_directional_ = &card;
+  }
+
   const Deck& deck_;
   const Model& model_;
   const World& world_;
@@ -339,8 +352,8 @@ class StressReader {
   ElementChoice choice_;
   const std::vector<SolidPart>& solids_;
   const std::vector<ShellPart>& shells_;
-  std::size_t beyond_ = 0, more_ = 0;  ///< points
-  const Entry *first_beyond_ = nullptr, *first_more_ = nullptr;
+  std::size_t beyond_ = 0, more_ = 0, directional_ = 0;  ///< points
+  const Entry *first_beyond_ = nullptr, *first_more_ = nullptr, *first_directional_ = nullptr;
   int errors_ = 0;
   static constexpr int most_errors = 20;
 };

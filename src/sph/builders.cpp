@@ -56,9 +56,14 @@ void read_settings(const Deck& deck, const Model& model, World& world, Diagnosti
   read_turbulence(deck, model, world, settings, diagnostics);
 }
 
+constexpr std::string_view not_of_particles[] = {"COURANT_OUTPUT",      "COURANT_D3PLOT",
+                                                 "COURANT_VERDICT",     "COURANT_RIGID_INERTIA",
+                                                 "COURANT_GAUGE_FORCE", "COURANT_PROGRAM_FORCES"};
+
 void report_what_needs_particles(const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   for (const auto& [name, use] : deck.keywords) {
-    if (use.treatment != Treatment::honoured || name == "COURANT_OUTPUT") continue;
+    const auto* const other = std::find(std::begin(not_of_particles), std::end(not_of_particles), name);
+    if (use.treatment != Treatment::honoured || other != std::end(not_of_particles)) continue;
     for (const char* begin : {"COURANT_", "BOUNDARY_SPH_", "DEFINE_SPH_"})
       if (name.starts_with(begin))
         diagnostics.warning({deck.files[0].name},

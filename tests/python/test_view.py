@@ -50,3 +50,14 @@ def test_what_is_wrong_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[st
     with pytest.raises(SystemExit) as ended:
         main([run, "--state", "1", "--at", "0.1", *picture])
     assert ended.value.code == 1
+
+
+@needs_program
+def test_a_run_without_states_is_no_wrong_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    deck = courant.DeckBuilder("bar", 0.01)
+    deck.card("*PART", "bar", [1, 1, 1]).card("*SECTION_SOLID", [1, 1]).card("*MAT_ELASTIC", [1, 1000.0, 1e5, 0.3])
+    deck.mesh("SOLID", 1, courant.grid([1, 1, 1], [0.1, 0.1, 0.1]))
+    folder = courant.run(deck.write(tmp_path / "bar.k"), tmp_path / "run", quiet=True).folder
+    assert courant.open(folder).verdict == "sound"
+    assert main([str(folder), "-o", str(tmp_path / "x.png")]) == 1
+    assert "*DATABASE_BINARY_D3PLOT" in capsys.readouterr().err

@@ -48,6 +48,8 @@ class FaceFinder {
   std::vector<Index> nodes(const ContactCard& card, ContactSide side, const std::vector<Index>& faces);
   /// The same of a side that names parts: nodes of all elements that these have, of beams, too.
   std::vector<Index> nodes_of_elements(const ContactCard& card, ContactSide side);
+  /// Whether the side names parts, none of which has shells or solids: parts of beams.
+  bool has_no_faces(const ContactCard& card, ContactSide side) const;
   /// Beams with a length and a cross section that SURFA names by parts, or with all; those all of whose ends
   /// are in SABOXID.
   std::vector<BeamEdge> beams(const ContactCard& card);

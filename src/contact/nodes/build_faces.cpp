@@ -238,6 +238,17 @@ std::vector<Index> FaceFinder::nodes_of_elements(const ContactCard& card, Contac
   return out;
 }
 
+bool FaceFinder::has_no_faces(const ContactCard& card, ContactSide side) const {
+  const SideFields f = fields_of(card, side);
+  if (f.id == 0 || (f.type != part_set && f.type != part)) return false;
+  Diagnostics unheard;  // what is wrong with the parts is reported with their nodes
+  const auto parts = parts_named(deck_, model_, card, f.field, f.id, f.type, unheard);
+  return !parts.empty() && std::none_of(parts.begin(), parts.end(), [&](Index k) {
+    const ModelPart& p = model_.parts[static_cast<std::size_t>(k)];
+    return p.has_shell || p.has_solid;
+  });
+}
+
 std::vector<BeamEdge> FaceFinder::beams(const ContactCard& card) {
   const SideFields f = fields_of(card, ContactSide::a);
   std::vector<BeamEdge> out;

@@ -48,7 +48,9 @@ class TiedBuilder {
   void add(const TiedCard& c) {
     std::vector<Tie> ties;
     const TiedKind kind = kind_of(c);
-    if (!find(c, ties, kind.welds && (c.surfatyp == 2 || c.surfatyp == 3))) return;
+    const bool by_part = c.surfatyp == 2 || c.surfatyp == 3;
+    const bool of_beams = kind.turns && finder_.has_no_faces(c, ContactSide::a);
+    if (!find(c, ties, (kind.welds && by_part) || of_beams)) return;
     if (kind.welds) drop_of_bodies(c, ties);
     if (kind.form != TieForm::spring) drop_tied(c, ties);
     bool exact = kind.form != TieForm::spring;

@@ -26,11 +26,12 @@ void stop_for_volume(const ElementGroup& group, Id part, const StableStep& found
                       : fmt::format("turned inside out (volume {:.4g} of its first)", found.least_volume),
                   clock.t, clock.cycle),
       std::isnan(found.least_volume) ? StopCause::not_finite : StopCause::element,
-      std::isnan(found.least_volume)
-          ? ""
+      std::isnan(found.least_volume) ? ""
+      : clock.cycle == 0
+          ? "its corners are at fault: check their order and their positions"
           : "the mesh there is crushed or sheared too far: let elements be deleted before (ERODE of "
             "*CONTROL_TIMESTEP, *MAT_ADD_EROSION), make hourglass control stiffer (IHQ 5 or 6), take a finer "
-            "mesh or ELFORM 2, and check what presses on it");
+            "mesh, and check what presses on it");
 }
 
 void hold_deleted(const Erosion& erosion, Index begin, Index count, SolidScratch& scratch) {

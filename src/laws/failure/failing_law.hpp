@@ -1,6 +1,8 @@
 #pragma once
 // A law that keeps numbers behind those of another one, which it calls, and fails by a ratio of its own.
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,18 +17,23 @@ class FailingLaw : public StrengthLaw {
   FailingLaw(std::shared_ptr<StrengthLaw> of, std::vector<HistoryVariable> more)
       : of_(std::move(of)), more_(std::move(more)) {
     ro = of_->ro, failing_layers = of_->failing_layers;
-    for (const HistoryVariable& h : of_->history()) kept_ += static_cast<std::size_t>(h.components);
+    std::vector<HistoryVariable> all = of_->history();
+    for (const HistoryVariable& h : all) kept_ += static_cast<std::size_t>(h.components);
+    more_.push_back({"failure_ratio", "-"});
+    for (HistoryVariable& h : more_) {
+      h.name = unused_name(h.name, all);
+      all.push_back(h);
+    }
   }
   Real bulk_modulus() const override { return of_->bulk_modulus(); }
   Real shear_modulus() const override { return of_->shear_modulus(); }
   std::vector<HistoryVariable> history() const override {
     auto out = of_->history();
     out.insert(out.end(), more_.begin(), more_.end());
-    out.push_back({"failure_ratio", "-"});
     return out;
   }
   Real failure_limit() const override { return 1; }
-  std::string failure_variable() const override { return "failure_ratio"; }
+  std::string failure_variable() const override { return more_.back().name; }
   LeastStep least_step() const override { return of_->least_step(); }
   const MaterialAxes* axes() const override { return of_->axes(); }
   bool stiffens() const override { return of_->stiffens(); }
@@ -47,6 +54,14 @@ class FailingLaw : public StrengthLaw {
   std::size_t kept_ = 0;
 
  private:
+  /// Numbers of one name would be one number: a second damage is "damage_2".
+  static std::string unused_name(const std::string& name, const std::vector<HistoryVariable>& used) {
+    std::string out = name;
+    for (int k = 2; std::any_of(used.begin(), used.end(), [&](const auto& h) { return h.name == out; }); ++k)
+      out = name + "_" + std::to_string(k);
+    return out;
+  }
+
   std::vector<HistoryVariable> more_;
 };
 

@@ -218,7 +218,10 @@ class Cscm : public StrengthLaw {
   };
   /// `x`: I/sqrt(3 J2) of the trial state.
   Viscosity viscosity(const PointBlock& block, Index i, Real x) const {
-    const Real rate = c_.irate != 0 ? effective_rate(block, i, true) : 0;
+    // of the deviator; where nearly all changes the volume alone, of that, else the cap would never flow
+    const Real volumetric = std::abs(block.rate[0][i] + block.rate[1][i] + block.rate[2][i]);
+    const Real rate =
+        c_.irate != 0 ? std::max(effective_rate(block, i, true), std::sqrt(2.0) / 3 * volumetric) : 0;
     if (!(rate > 0) || !(block.dt > 0)) return {};
     const Real tension = c_.eta0t * std::pow(rate, -c_.nt), shear = c_.srate * tension;
     const Real axial = x < 0 ? tension : c_.eta0c * std::pow(rate, -c_.nc), t = transition(x);

@@ -32,7 +32,8 @@ void ModelBuilder::warn_of_short_curves() {
     const auto found = model_.curves.find(id);
     if (found == model_.curves.end() || found->second.ordinate.size() < 2 || found->second.silent ||
         found->second.by_formula || is_of_relaxation(field))
-      return;  // of one point: a constant
+      return;                                                   // of one point: a constant
+    if (deck_.keyword(entry).starts_with("*INITIAL_")) return;  // its end is where the load lets go
     const Real birth = number_named(spec, entry, "BIRTH", 0);
     const Real until = std::min(model_.endtim, number_named(spec, entry, "DEATH", model_.endtim));
     const Real last = birth + found->second.abscissa.back(), value = found->second.ordinate.back();

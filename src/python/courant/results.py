@@ -410,6 +410,15 @@ class Results:
         return found if isinstance(found, dict) else {}
 
     @property
+    def verdict(self) -> str:
+        """ "sound", "doubtful" or "broken"; "" where the run did not come so far."""
+        return str(self.summary.get("verdict", ""))
+
+    @property
+    def verdict_reasons(self) -> list[str]:
+        return [str(reason) for reason in self.summary.get("verdict_reasons") or []]
+
+    @property
     def energies(self) -> Table:
         """The energy ledger over time: what has the unit of the total energy."""
         table, file = self.histories.table("global"), self.histories._file

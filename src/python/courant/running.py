@@ -26,15 +26,6 @@ class Run(Results):
         self.diagnostics, self.exit_code = diagnostics, exit_code
 
     @property
-    def verdict(self) -> str:
-        """ "sound", "doubtful" or "broken"; "" where the run did not come so far."""
-        return str(self.summary.get("verdict", ""))
-
-    @property
-    def verdict_reasons(self) -> list[str]:
-        return [str(reason) for reason in self.summary.get("verdict_reasons") or []]
-
-    @property
     def termination(self) -> str:
         """ "normal", "interrupted" or "error"."""
         return str(self.summary.get("termination", ""))

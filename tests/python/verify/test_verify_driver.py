@@ -265,3 +265,9 @@ def test_builders_that_cannot_be_called_are_named(call: Caller, build: str, what
     more = ", parameters: {m: 1}" if "no parameter" in what else ""
     call.write(f"cases: [{{name: a, build: '{build}'{more}, observations: [{{name: b, of: global/kinetic, take: final}}]}}]")
     assert what in call(code=1) and call.runs() == 0
+
+
+def test_a_builder_that_returns_nothing_is_named(call: Caller) -> None:
+    (call.folder / "decks.py").write_text("def deck(n=1):\n    pass\n")
+    call.write("cases: [{name: a, build: 'decks.py:deck', observations: [{name: b, of: global/kinetic, take: final}]}]")
+    assert "deck gives NoneType, expected the text of a deck" in call(code=1)

@@ -73,5 +73,25 @@ TEST(BeamOffset, SameBitsAfterARestart) {
   test::expect_same_after_restart(cantilever(beam, 0.01, "1", "", "5."), 300, 300);
 }
 
+TEST(BeamOffset, PartsOfBeamsAreTiedByTheirNodes) {
+  for (const char* const contact : {beam, exact, "*CONTACT_SPOTWELD"}) {
+    const std::string deck =
+        "*KEYWORD\n*CONTROL_TERMINATION\n1.\n*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n"
+        "11,.4,.4,0\n12,.4,.4,.5\n13,1.,0,.5\n*ELEMENT_SHELL\n1,1,1,2,3,4\n*ELEMENT_BEAM\n2,2,11,12,13\n"
+        "*PART\nsheet\n1,1,1\n*PART\npost\n2,2,1\n*SECTION_SHELL\n1,2,0.833333,3\n0.01\n"
+        "*SECTION_BEAM\n2,1,0.833333,2\n0.05,0.05,0.05,0.05\n*MAT_ELASTIC\n1,1000.,1.E9,0.3\n" +
+        std::string(contact) + "\n2,1,3,3\n0.\n1.,1.\n*INITIAL_VELOCITY_NODE\n12,0.,0.,1.\n*END\n";
+    Diagnostics diagnostics;
+    const auto s = Simulation::build("deck.k", in_memory(deck), diagnostics);
+    ASSERT_TRUE(s) << contact << diagnostics.text();
+    EXPECT_EQ(diagnostics.text().find("nothing is tied"), std::string::npos) << contact << diagnostics.text();
+    test::run(*s, 0.01);
+    Real fastest = 0;  // of the sheet, which the post takes with it
+    for (Index k = 0; k < s->world().nodes.size(); ++k)
+      if (s->world().nodes.id[k] <= 4) fastest = std::max(fastest, s->world().nodes.v.vec(k).norm());
+    EXPECT_GT(fastest, 1e-3) << contact;
+  }
+}
+
 }  // namespace
 }  // namespace courant

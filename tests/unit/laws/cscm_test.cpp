@@ -356,4 +356,17 @@ TEST(CscmConcrete, UnitsAreOneMaterial) {
   }
 }
 
+// The rate is that of the deviator, which is round-off here: the cap flows all the same.
+TEST(CscmConcrete, RoundOffOfTheDeviatorDecidesNothingUnderPressure) {
+  std::vector<Real> pressures;
+  for (const Real deviator : {0.0, 1e-15, 1e-9, 1e-6}) {
+    DrivenPoint point(concrete("1,2.3e-9,,,1"));
+    point.dt = 1e-5;
+    for (int k = 0; k < 100; ++k) point.strain({-1e-4 * (1 + deviator), -1e-4, -1e-4, 0, 0, 0});
+    pressures.push_back(-(point.stress[0] + point.stress[1] + point.stress[2]) / 3);
+  }
+  for (const Real p : pressures) EXPECT_NEAR(p, pressures[0], 1e-4 * pressures[0]);
+  EXPECT_LT(pressures[0], 0.9 * 0.03 * concrete()->bulk_modulus()) << "elastic";
+}
+
 }  // namespace cscm_test

@@ -179,4 +179,19 @@ TEST(Gissmo, MayOnlyCount) {
   EXPECT_NEAR(bar.stress[0], 300 + 500 * bar.of("plastic_strain"), 1e-6);
 }
 
+// Two numbers of one name would be one number: the material's sum of de/0.5 and that of de/0.3.
+TEST(Gissmo, HasADamageOfItsOwnBesideThatOfTheMaterial) {
+  const auto law = law_from_cards(
+      "MAT_ADD_DAMAGE_GISSMO",
+      "1,,1\n5,0.0,1.0,1.0,1.0\n\n*MAT_TABULATED_JOHNSON_COOK\n1,7.8e-9,2e5,0.3,,,0.0\n10,,20\n\n" + yields +
+          curve(5, "-1.0,0.3\n1.0,0.3\n") + curve(20, "-1.0,0.5\n1.0,0.5\n"));
+  DrivenPoint bar(law);
+  for (int k = 0; k < 200; ++k) bar.strain_with_free({5e-4, -2e-4, -2e-4, 0, 0, 0}, {1, 2});
+  const Real e = bar.of("plastic_strain");
+  EXPECT_GT(e, 0.05);
+  EXPECT_NEAR(bar.of("damage"), e / 0.5, 1e-6);
+  EXPECT_NEAR(bar.of("damage_2"), e / 0.3, 1e-6);
+  EXPECT_EQ(law->failure_variable(), law->history().back().name);
+}
+
 }  // namespace fracture_strain_test

@@ -100,10 +100,12 @@ TEST(LinearConstraint, RefusesByName) {
   const std::string one = "*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n2,1,-1.\n";
   EXPECT_NE(refusal_of(masses(one + one)).find("it follows from others, or contradicts them"),
             std::string::npos);
-  EXPECT_NE(refusal_of(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n9,1,-1.\n")).find("node 9 does not exist"),
-            std::string::npos);
-  EXPECT_NE(refusal_of(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,4,1.\n2,4,-1.\n")).find("node 1 does not turn"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,1,1.\n9,1,-1.\n")).find("node 9 does not exist"),
+      std::string::npos);
+  EXPECT_NE(
+      refusal_of(masses("*CONSTRAINED_LINEAR_GLOBAL\n1\n1,4,1.\n2,4,-1.\n")).find("node 1 does not turn"),
+      std::string::npos);
   EXPECT_NE(refusal_of(masses("*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,1\n" + one)).find("node 2 is driven"),
             std::string::npos);
 }

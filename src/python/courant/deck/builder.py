@@ -70,6 +70,8 @@ class DeckBuilder:
 
     def card(self, keyword: str, *rows: str | Sequence[Value]) -> DeckBuilder:
         """A keyword and its cards: texts as they are, values with commas between; None is blank."""
+        if not keyword.startswith("*"):
+            raise ValueError(f"keywords begin with '*': '*{keyword}'")
         self._lines.append(keyword)
         self._lines += [row if isinstance(row, str) else ",".join([*map(_text, row), ""]) for row in rows]  # a comma after one value, too
         return self

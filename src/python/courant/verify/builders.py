@@ -77,4 +77,8 @@ class Builder:
             made = self._function()(**arguments)
         except Exception as fault:
             raise BuildFault(f"{self.function}: {type(fault).__name__}: {fault}") from fault
-        return made if isinstance(made, str) else str(made.text())
+        if isinstance(made, str):
+            return made
+        if not callable(getattr(made, "text", None)):
+            raise BuildFault(f"{self.function} gives {type(made).__name__}, expected the text of a deck or a courant.DeckBuilder")
+        return str(made.text())
