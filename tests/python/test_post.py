@@ -217,7 +217,7 @@ class TestCall:
         found = self.ends(capsys, 2, tmp_path / "r.yaml", tmp_path)
         assert f"error: cannot write '{tmp_path}/post': " in found.err and "\n  hint: " in found.err
 
-    @pytest.mark.parametrize("words", [[], ["a"], ["a", "b", "--threads", "-1"], ["a", "b", "--thread", "x"]])
+    @pytest.mark.parametrize("words", [[], ["a", "b", "--threads", "-1"], ["a", "b", "--thread", "x"]])
     def test_wrong_calls(self, words):
         with pytest.raises(SystemExit) as end:
             main(words)
