@@ -35,30 +35,34 @@ Real warp_angle(const World& world, const std::array<Index, 4>& node) {
   return std::acos(std::clamp<Real>(cosine, -1, 1)) * 180 / pi;
 }
 
-/// Quadrilaterals whose area is turned inwards: with 2 x 2 points at one of these, which the formulation
-/// cannot compute, else at a corner, where it is wrong.
+/// Quadrilaterals whose area is turned inwards: at one of 2 x 2 points, which the formulation cannot compute;
+/// at a corner, where it is wrong.
 void check_corners(const Model& model, const std::vector<ShellPart>& parts, const World& world,
                    Diagnostics& diagnostics) {
-  std::vector<std::vector<Id>> inwards(parts.size());
+  struct Inwards {
+    Index count = 0;
+    Id first = 0;
+  };
+  std::vector<Inwards> at_points(parts.size()), at_corners(parts.size());
   for (std::size_t s = 0; s < model.shells.size(); ++s) {
     const auto part = static_cast<std::size_t>(model.shells[s].part);
     const auto node = world.segments.nodes(static_cast<Index>(s));
     if (!parts[part].law || parts[part].null || node[2] == node[3]) continue;
-    const auto x = [&](std::size_t c) { return Vec(world.nodes.x.vec(node[c])); };
-    if (turns_inwards({x(0), x(1), x(2), x(3)}, parts[part].full))
-      inwards[part].push_back(model.shells[s].id);
+    const std::array<Vec, 4> x = corners_at(world, node);
+    if (!turns_inwards(x, false)) continue;
+    Inwards& of = parts[part].full && turns_inwards(x, true) ? at_points[part] : at_corners[part];
+    if (of.count++ == 0) of.first = model.shells[s].id;
   }
+  const auto text = [&](std::size_t k, const Inwards& of, const char* where) {
+    return fmt::format("{} {} of part {} {} turned inwards at a {}, the first is shell {}", of.count,
+                       of.count == 1 ? "shell" : "shells", model.parts[k].id, of.count == 1 ? "is" : "are",
+                       where, of.first);
+  };
+  const char* hint = "move the node at the corner, or make two triangles of the quadrilateral";
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (inwards[k].empty()) continue;
-    const std::string which =
-        fmt::format("{} {} of part {} {} turned inwards at a {}, the first is shell {}", inwards[k].size(),
-                    inwards[k].size() == 1 ? "shell" : "shells", model.parts[k].id,
-                    inwards[k].size() == 1 ? "is" : "are", parts[k].full ? "point" : "corner", inwards[k][0]);
-    const char* hint = "move the node at the corner, or make two triangles of the quadrilateral";
-    if (parts[k].full)
-      diagnostics.error(model.parts[k].where, which, hint);
-    else
-      diagnostics.warning(model.parts[k].where, which, hint);
+    if (at_points[k].count > 0) diagnostics.error(model.parts[k].where, text(k, at_points[k], "point"), hint);
+    if (at_corners[k].count > 0)
+      diagnostics.warning(model.parts[k].where, text(k, at_corners[k], "corner"), hint);
   }
 }
 
