@@ -30,13 +30,13 @@ def preview_of(deck: str | PathLike[str], name: str, file: str | PathLike[str] |
         try:
             return first.plot(field, None if file is None else Path(file), **keys)
         except KeyError as fault:  # UnknownField, too, whose message has the file of the results
-            raise _fault(name, "preview: " + re.sub(rf"{re.escape(folder)}\S*", "the first state", str(fault.args[0]))) from None
+            raise fault_of(name, "preview: " + re.sub(rf"{re.escape(folder)}\S*", "the first state", str(fault.args[0]))) from None
         except OutputError as fault:
             message, _, hint = str(fault).partition("\n  hint: ")
-            raise _fault("", message, hint) from None
+            raise fault_of("", message, hint) from None
 
 
-def _fault(name: str, message: str, hint: str = "") -> CourantError:
+def fault_of(name: str, message: str, hint: str = "") -> CourantError:
     diagnostics = Diagnostics()
     diagnostics.error(name, message, hint)
     return CourantError(diagnostics)
@@ -47,7 +47,7 @@ def check_ending(file: Path) -> None:
 
     known = sorted(module("matplotlib.backend_bases").FigureCanvasBase.get_supported_filetypes())
     if file.suffix and file.suffix[1:].lower() not in known:
-        raise _fault(fspath(file), f"preview: pictures cannot end with '{file.suffix}'", f"endings: {', '.join(known)}")
+        raise fault_of(fspath(file), f"preview: pictures cannot end with '{file.suffix}'", f"endings: {', '.join(known)}")
 
 
 def first_state(deck: str | PathLike[str], name: str, folder: Path) -> Any:
@@ -60,5 +60,5 @@ def first_state(deck: str | PathLike[str], name: str, folder: Path) -> Any:
         asked.add("*DATABASE_BINARY_D3PLOT\n1.0")
         first = run(asked.write(folder / "asked.k"), folder / "second", **_OPTIONS)  # type: ignore[arg-type]
     if not (Path(first.folder) / "fields.pvd").exists():
-        raise _fault(name, "preview: the deck has no state that could be drawn", "of *CASE, each case is a run of its own")
+        raise fault_of(name, "preview: the deck has no state that could be drawn", "of *CASE, each case is a run of its own")
     return first.states[0]

@@ -8,30 +8,24 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from .diagnostics import CourantError, Diagnostics
+from .diagnostics import CourantError
 from .files import OutputError
 from .optional import MissingModule
-from .previewing import check_ending, first_state
+from .previewing import check_ending, fault_of, first_state
 from .results import Results
 from .terminal import EXIT_INPUT, EXIT_MISSED, EXIT_OK, EXIT_OTHER, Parser, say
-
-
-def _fault(name: str, message: str, hint: str = "") -> CourantError:
-    diagnostics = Diagnostics()
-    diagnostics.error(name, message, hint)
-    return CourantError(diagnostics)
 
 
 def _chosen(folder: str, number: int | None, t: float | None) -> Any:
     run = Path(folder)
     states = Results(folder).states if (run / "fields.pvd").exists() or not (run / "summary.yaml").exists() else ()
     if not len(states):
-        raise _fault(folder, "the run has written no state", "ask for states by *DATABASE_BINARY_D3PLOT")
+        raise fault_of(folder, "the run has written no state", "ask for states by *DATABASE_BINARY_D3PLOT")
     if t is not None:
         return states.at(t)
     number = -1 if number is None else number
     if not -len(states) <= number < len(states):
-        raise _fault(folder, f"there is no state {number}: the run has {len(states)}", f"from 0 to {len(states) - 1}; -1 is the last")
+        raise fault_of(folder, f"there is no state {number}: the run has {len(states)}", f"from 0 to {len(states) - 1}; -1 is the last")
     return states[number]
 
 
@@ -62,7 +56,7 @@ def main(words: Sequence[str]) -> int:
                 state.plot(call.field, Path(call.output))
                 say(f"view: {call.output}\n")
             elif not _has_display():
-                raise _fault("", "there is no display for a window", "-o FILE.png draws a picture")
+                raise fault_of("", "there is no display for a window", "-o FILE.png draws a picture")
             else:
                 state.show(call.field or "speed")
     except CourantError as fault:
