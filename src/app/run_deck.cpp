@@ -69,9 +69,8 @@ RunResult run_deck(RunCall& call) {
     const auto simulation = built(call, restart ? &restart->deck : nullptr, result);
     if (!simulation) return result;
     if (const std::string why = simulation->why_not_until(options.until); !why.empty())
-      return refused(
-          exit_input,
-          fmt::format("error: --until {:g}: {}\n  hint: give the later end as ENDTIM\n", options.until, why));
+      return refused(exit_input, fmt::format("error: --until {:g}: {}\n  hint: {}\n", options.until, why,
+                                             Simulation::how_until));
     std::unique_ptr<Simulation> relaxing;
     if (simulation->relaxation().asked && !restart && !(relaxing = built_relaxing(call, result)))
       return result;

@@ -12,7 +12,7 @@ enum class InstructionSet { baseline, avx2, avx512 };
 /// environment chooses a lesser one. Throws std::runtime_error where that is not to be had.
 InstructionSet instruction_set();
 const char* name_of(InstructionSet set);
-/// All that this processor and this build have, the best last. Throws std::runtime_error where there is none.
+/// All that this processor and this build have, the best last.
 std::vector<InstructionSet> instruction_sets();
 /// For tests and benchmarks; takes effect for what is built afterwards.
 void use_instruction_set(InstructionSet set);
@@ -34,11 +34,6 @@ Function variant(Function baseline, Function avx2, Function avx512) {
 }  // namespace courant
 
 // What this build has: CMake's COURANT_LEAVE_OUT names sets that are not compiled.
-#if !defined(COURANT_WITHOUT_baseline)
-#define COURANT_BASELINE(function) &baseline::function
-#else
-#define COURANT_BASELINE(function) nullptr
-#endif
 #if defined(__x86_64__) && !defined(COURANT_WITHOUT_avx2)
 #define COURANT_AVX2(function) &avx2::function
 #else
@@ -64,6 +59,6 @@ Function variant(Function baseline, Function avx2, Function avx512) {
   }
 
 /// `variant` of a function that each instruction set's namespace has under the same name.
-#define COURANT_VARIANT(function)                                                            \
-  variant<decltype(&baseline::function)>(COURANT_BASELINE(function), COURANT_AVX2(function), \
+#define COURANT_VARIANT(function)                                                     \
+  variant<decltype(&baseline::function)>(&baseline::function, COURANT_AVX2(function), \
                                          COURANT_AVX512(function))

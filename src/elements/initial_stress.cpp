@@ -160,29 +160,39 @@ class StressReader {
   }
 
   void finish() {
-    if (beyond_ > 0)
+    if (beyond_.points > 0)
       diagnostics_.warning(
-          deck_.where(*first_beyond_),
-          fmt::format("{}: the stress of {} points is beyond what the material yields at: it comes "
-                      "back to that in the first step",
-                      deck_.keyword(*first_beyond_), beyond_),
+          deck_.where(*beyond_.first),
+          text_of(beyond_,
+                  "{}: the stress of {} points is beyond what the material yields at: it comes back "
+                  "to that in the first step"),
           "check units, material and EPS");
-    if (directional_ > 0)
-      diagnostics_.warning(
-          deck_.where(*first_directional_),
-          fmt::format("{}: {} points start without the elastic energy of their stress, as their material "
-                      "has directions: internal energy may fall below 0 by it",
-                      deck_.keyword(*first_directional_), directional_),
-          "motion and stress do not depend on it");
-    if (more_ > 0)
-      diagnostics_.note(
-          deck_.where(*first_more_),
-          fmt::format("{}: numbers more of {} points have no effect: the material keeps its plastic "
-                      "strain alone",
-                      deck_.keyword(*first_more_), more_));
+    if (directional_.points > 0)
+      diagnostics_.warning(deck_.where(*directional_.first),
+                           text_of(directional_,
+                                   "{}: {} points start without the elastic energy of their stress, as their "
+                                   "material has directions: internal energy may fall below 0 by it"),
+                           "motion and stress do not depend on it");
+    if (more_.points > 0)
+      diagnostics_.note(deck_.where(*more_.first),
+                        text_of(more_,
+                                "{}: numbers more of {} points have no effect: the material keeps its "
+                                "plastic strain alone"));
   }
 
  private:
+  /// Points of which there is something to say, and the card of the first.
+  struct Noted {
+    std::size_t points = 0;
+    const Entry* first = nullptr;
+    void count(const Entry& card) {
+      if (points++ == 0) first = &card;
+    }
+  };
+  std::string text_of(const Noted& noted, fmt::format_string<std::string, const std::size_t&> text) const {
+    return fmt::format(text, deck_.keyword(*noted.first), noted.points);
+  }
+
   template <class Card>
   void error(const Card& card, const char* field, std::string message, std::string hint) {
     if (++errors_ <= most_errors) deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
@@ -322,12 +332,12 @@ class StressReader {
           "leave them 0, or NHISV");
       return false;
     }
-    if (any && more_++ == 0) first_more_ = &card;
+    if (any) more_.count(card);
     switch (keeps(at, stress)) {
       case Keeps::all:
         break;
       case Keeps::up_to_yield:
-        if (beyond_++ == 0) first_beyond_ = &card;
+        beyond_.count(card);
         break;
       case Keeps::nothing:
         error(card, "SIGXX",
@@ -342,7 +352,7 @@ class StressReader {
   }
 
   void note_directions(const Entry& card, const StrengthLaw& law, const Stress& s) {
-    if (law.axes() && size_of(s) > 0 && directional_++ == 0) first_directional_ = &card;
+    if (law.axes() && size_of(s) > 0) directional_.count(card);
   }
 
   const Deck& deck_;
@@ -352,8 +362,7 @@ class StressReader {
   ElementChoice choice_;
   const std::vector<SolidPart>& solids_;
   const std::vector<ShellPart>& shells_;
-  std::size_t beyond_ = 0, more_ = 0, directional_ = 0;  ///< points
-  const Entry *first_beyond_ = nullptr, *first_more_ = nullptr, *first_directional_ = nullptr;
+  Noted beyond_, more_, directional_;
   int errors_ = 0;
   static constexpr int most_errors = 20;
 };

@@ -3,6 +3,10 @@
 // everything is inlined there, and has the name of the instruction set in its name.
 #include "base/simd.hpp"
 
+#if COURANT_SIMD_BYTES == 16
+#define COURANT_ONCE  // what a file of loops has besides them, such as a registration
+#endif
+
 namespace courant::COURANT_SIMD {
 
 struct Triple {

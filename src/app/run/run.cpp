@@ -68,7 +68,7 @@ class Run {
     print_start();
     try {
       if (const std::string why = s_.why_not_until(end_); !why.empty())
-        throw RunError(why, "give the later end as ENDTIM");
+        throw RunError(why, Simulation::how_until);
       options_.restart ? go_on() : relax_first();
       if (summary_.reason.empty()) loop();
       finish_normally();
@@ -249,7 +249,7 @@ class Run {
         break;
       case Kind::end_time:
         if (const std::string why = s_.why_not_until(order.end_time); !why.empty())
-          messag_.line(" *** Warning: the end stays: " + why + "; give the later end as ENDTIM");
+          messag_.line(" *** Warning: the end stays: " + why + "; " + Simulation::how_until);
         else
           end_ = order.end_time;
         messag_.line(fmt::format(" termination time                  = {:10.3E}", end_));

@@ -75,6 +75,7 @@ class Simulation {
   /// Why a run cannot go on until `end`: particles of inlets were made, and formulas of curves taken, up to
   /// ENDTIM. Empty where it can. [T]
   std::string why_not_until(Real end) const;
+  static constexpr const char* how_until = "give the later end as ENDTIM";
   PassTimer& timer() { return timer_; }
   double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
   /// What the deck asks for in front of the run: another simulation of it, of RunPhase::relaxation, from

@@ -26,10 +26,9 @@ std::array<Vec, 4> corners_at(const World& world, const std::array<Index, 4>& no
 }
 
 /// Degrees between the normals of the triangles on the two sides of a diagonal.
-Real warp_angle(const World& world, const std::array<Index, 4>& node) {
-  const auto x = [&](std::size_t c) { return world.nodes.x.vec(node[c]); };
+Real warp_angle(const std::array<Vec, 4>& x) {
   const auto normal = [&](std::size_t a, std::size_t b, std::size_t c) -> Vec {
-    return (x(b) - x(a)).cross(x(c) - x(a)).normalized();
+    return (x[b] - x[a]).cross(x[c] - x[a]).normalized();
   };
   const Real cosine = std::min(normal(0, 1, 2).dot(normal(0, 2, 3)), normal(1, 2, 3).dot(normal(1, 3, 0)));
   return std::acos(std::clamp<Real>(cosine, -1, 1)) * 180 / pi;
@@ -79,8 +78,9 @@ void warn_of_warp(const Model& model, const std::vector<ShellPart>& parts, const
     const auto node = world.segments.nodes(static_cast<Index>(s));
     if (!parts[part].law || parts[part].null || node[2] == node[3] || parts[part].control.drilling > 0)
       continue;  // that has a stiffness of warping
-    const Real angle = warp_angle(world, node);
-    if (!(angle > parts[part].warp_warning) || turns_inwards(corners_at(world, node), false)) continue;
+    const std::array<Vec, 4> x = corners_at(world, node);
+    const Real angle = warp_angle(x);
+    if (!(angle > parts[part].warp_warning) || turns_inwards(x, false)) continue;
     Worst& w = worst[part];
     ++w.count;
     if (angle > w.angle) w.angle = angle, w.id = model.shells[s].id;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "keyword/expectations.hpp"
 #include "laws/failure/failing_law.hpp"
 #include "laws/failure/fracture_strain.hpp"
 #include "laws/materials/strength_cards.hpp"
@@ -137,10 +138,7 @@ std::shared_ptr<StrengthLaw> add_gissmo(const Deck& deck, const Model& model, Id
 }
 
 void MatAddDamageGissmo::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   expect(dtyp == 0 || dtyp == 1, "DTYP", "0 or 1", dtyp, "damage is driven by the plastic strain");
   expect(numfip >= 1 && numfip == std::floor(numfip), "NUMFIP", "a number of points", numfip,
          "per cent of them (< 0) are not supported");

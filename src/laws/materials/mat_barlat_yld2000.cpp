@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyword/common_rules.hpp"
+#include "keyword/expectations.hpp"
 #include "laws/strength/barlat.hpp"
 
 namespace courant {
@@ -62,10 +63,7 @@ struct MatBarlatYld2000 : DirectionsCard {
 using Yld2000 = MatBarlatYld2000;
 
 void Yld2000::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   check_axes(deck, model, diagnostics);
   expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
   expect(a >= 2, "A", "a number of 2 or more", a,

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <limits>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/mat_cscm.hpp"
 #include "laws/strength/radial_return.hpp"
 #include "laws/strength/root_below.hpp"
@@ -323,10 +324,7 @@ struct MatCscm : MatCscmFields {
 };
 
 void MatCscm::check(const Deck& deck, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   check_cscm_state(*this, expect);
   expect(nh == 0 || nh == 1, "NH", "0 or 1", nh, "hardening before the failure surface is not supported");
   expect(alpha > lamda, "ALPHA", "a number above LAMDA", alpha, "without pressure concrete has a strength");

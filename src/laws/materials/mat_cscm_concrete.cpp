@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "keyword/common_rules.hpp"
+#include "keyword/expectations.hpp"
 #include "laws/materials/mat_cscm.hpp"
 
 namespace courant {
@@ -76,10 +77,7 @@ MatCscmFields MatCscmConcrete::parameters() const {
 }
 
 void MatCscmConcrete::check(const Deck& deck, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   check_cscm_state(*this, expect);
   constexpr Real least = 5, low = 20, high = 58, most = 120, fine = 4, coarse = 64;
   const Real f = strength(), d = aggregate();

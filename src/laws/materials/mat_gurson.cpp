@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/indexed_pieces.hpp"
+#include "keyword/expectations.hpp"
 #include "laws/materials/mat_piecewise_linear_plasticity.hpp"
 #include "laws/strength/hardening.hpp"
 #include "laws/strength/radial_return.hpp"
@@ -186,10 +187,7 @@ std::shared_ptr<StrengthLaw> MatGurson::law(const Model& model) const {
 }
 
 void MatGurson::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   const auto curve = [&](Real number, const char* field, const char* hint) {
     const Id id = static_cast<Id>(number);
     const auto found = model.curves.find(id);

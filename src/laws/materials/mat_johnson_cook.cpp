@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/johnson_cook.hpp"
 
@@ -22,10 +23,7 @@ struct MatJohnsonCook : MatJohnsonCookFields {
     return make_johnson_cook(ro, out);
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
-    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-      if (!holds)
-        deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-    };
+    const auto expect = expectations_of(*this, deck, diagnostics);
     expect(vp == 0 || vp == 1, "VP", "0 or 1", vp, "1: the rate is that of plastic strain");
     expect(rateop == 0 || rateop == 1 || rateop == 2 || rateop == 3, "RATEOP", "0, 1, 2 or 3", rateop,
            "0 log-linear, 1 log-quadratic, 2 power, 3 Cowper and Symonds");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/brittle_strength.hpp"
 
@@ -82,10 +83,7 @@ std::shared_ptr<StrengthLaw> MatJohnsonHolmquistCeramics::law() const {
 }
 
 void MatJohnsonHolmquistCeramics::check(const Deck& deck, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   expect(hel > phel, "HEL", "a number above PHEL", hel,
          "their difference times 3/2 is the effective stress by which strengths are scaled");
   expect(c == 0 || epsi > 0, "EPSI", "a number > 0", epsi, "C counts from this rate of strain on");

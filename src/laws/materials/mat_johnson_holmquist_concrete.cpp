@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/brittle_strength.hpp"
 #include "laws/strength/root_below.hpp"
@@ -112,10 +113,7 @@ std::shared_ptr<StrengthLaw> MatJohnsonHolmquistConcrete::law() const {
 }
 
 void MatJohnsonHolmquistConcrete::check(const Deck& deck, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   expect(pl > pc, "PL", "a number above PC", pl, "from PC to PL concrete is crushed");
   expect(ul > uc, "UL", "a number above UC", ul, "the compression of the dense material without pressure");
   expect(c == 0 || eps0 > 0, "EPS0", "a number > 0", eps0, "C counts from this rate of strain on");

@@ -2,6 +2,7 @@
 // Latham 1968.
 #include <fmt/format.h>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/johnson_cook.hpp"
 
@@ -30,10 +31,7 @@ struct MatModifiedJohnsonCook : MatModifiedJohnsonCookFields {
     return make_johnson_cook(ro, out);
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
-    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-      if (!holds)
-        deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-    };
+    const auto expect = expectations_of(*this, deck, diagnostics);
     expect(pr < 0.5, "PR", "a number < 0.5", pr,
            "a material that keeps its volume has no finite bulk modulus");
     expect(beta <= 1, "BETA", "a number from 0 to 1", beta, "1: damage weakens in full, 0: not at all");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "keyword/expectations.hpp"
 #include "laws/failure/thinning_failure.hpp"
 #include "laws/materials/mat_piecewise_linear_plasticity.hpp"
 #include "laws/strength/hardening.hpp"
@@ -104,10 +105,7 @@ void M::check_factor(const Deck& deck, const Model& model, Diagnostics& diagnost
 }
 
 void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
   expect(fail >= 0, "FAIL", "a number >= 0", fail, "failure by a subroutine of one's own is not supported");
   if (const Hardening points = table(); lcss == 0 && !points.strain.empty()) {

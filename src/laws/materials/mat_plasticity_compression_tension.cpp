@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/indexed_pieces.hpp"
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/hardening.hpp"
 #include "laws/strength/radial_return.hpp"
@@ -174,10 +175,7 @@ void CT::check_factor(const Deck& deck, const Model& model, const char* field, I
 }
 
 void CT::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
   expect((c > 0) == (p > 0), c > 0 ? "P" : "C", "a number > 0", 0,
          "the rate of strain counts by C and P together; leave both blank where it does not");

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/isotropic_plasticity.hpp"
 #include "laws/strength/rate_factor.hpp"
@@ -46,10 +47,7 @@ struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
     return law;
   }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
-    const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-      if (!holds)
-        deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-    };
+    const auto expect = expectations_of(*this, deck, diagnostics);
     expect(pr < 0.5, "PR", "a number < 0.5", pr,
            "a material that keeps its volume has no finite bulk modulus");
     expect(n > 0 && n < 1, "N", "a number between 0 and 1", n, "the exponent of hardening");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "keyword/expectations.hpp"
 #include "laws/failure/fracture_strain.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/radial_return.hpp"
@@ -156,10 +157,7 @@ std::shared_ptr<StrengthLaw> MatTabulatedJohnsonCook::law(const Model& model) co
 }
 
 void MatTabulatedJohnsonCook::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-  const auto expect = [&](bool holds, const char* field, const char* what, Real value, const char* hint) {
-    if (!holds)
-      deck.error(diagnostics, *this, field, fmt::format("expected {}, got '{:g}'", what, value), hint);
-  };
+  const auto expect = expectations_of(*this, deck, diagnostics);
   expect(pr < 0.5, "PR", "a number < 0.5", pr, "a material that keeps its volume has no finite bulk modulus");
   expect(beta >= 0 && beta <= 1, "BETA", "a number from 0 to 1", beta, "tables (< 0) are not supported");
   expect(numint >= 1 && numint == std::floor(numint), "NUMINT", "a number of points", numint,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import html
 import io
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from .diagnostics import CourantError
-from .files import OutputError, write_file
+from .files import write_file
 from .optional import MissingModule, module
 from .results import Results
 from .style import pyplot
-from .terminal import EXIT_INPUT, EXIT_MISSED, EXIT_OK, EXIT_OTHER, Parser, say
+from .terminal import Parser, exit_code_of, say
 
 _STYLE = """body{font:15px/1.45 system-ui,sans-serif;margin:2em auto;max-width:76em;padding:0 1em;color:#222}
 h1{font-size:1.5em}h2{font-size:1.15em;border-bottom:1px solid #ccc;margin-top:2em}table{border-collapse:collapse;margin:.5em 0}
@@ -182,18 +181,11 @@ def main(words: Sequence[str]) -> int:
     call = parser.parse_args(list(words))
     if len(call.folders) > 2:
         parser.error("one folder, or two")
-    try:
+
+    def write() -> None:
         runs = [Results(folder) for folder in call.folders]
         file = Path(call.output) if call.output else runs[0].folder / "report.html"
         write_file(file, page_of(runs), named=call.output is not None)
-    except CourantError as fault:
-        sys.stderr.write(f"{fault}\n")
-        return EXIT_INPUT
-    except OutputError as fault:
-        sys.stderr.write(f"error: {fault}\n")
-        return EXIT_MISSED
-    except MissingModule as fault:
-        sys.stderr.write(f"error: {fault}\n")
-        return EXIT_OTHER
-    say(f"report: {file}\n")
-    return EXIT_OK
+        say(f"report: {file}\n")
+
+    return exit_code_of(write)

@@ -19,6 +19,26 @@ class Parser(argparse.ArgumentParser):
         self.exit(EXIT_INPUT, f"error: {message}\n")
 
 
+def exit_code_of(call: Callable[[], None]) -> int:
+    """Of a call that reports its faults: 0; 1 where its input has faults, 2 where a file could not be written, 3 where a module is missing."""
+    from .diagnostics import CourantError
+    from .files import OutputError
+    from .optional import MissingModule
+
+    try:
+        call()
+    except CourantError as fault:
+        sys.stderr.write(f"{fault}\n")
+        return EXIT_INPUT
+    except OutputError as fault:
+        sys.stderr.write(f"error: {fault}\n")
+        return EXIT_MISSED
+    except MissingModule as fault:
+        sys.stderr.write(f"error: {fault}\n")
+        return EXIT_OTHER
+    return EXIT_OK
+
+
 def count(text: str) -> int:
     """A number from 0 on, of an option."""
     value = int(text)

@@ -8,19 +8,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from .diagnostics import CourantError
-from .files import OutputError
 from .optional import MissingModule
 from .previewing import check_ending, fault_of, first_state
 from .results import Results
-from .terminal import EXIT_INPUT, EXIT_MISSED, EXIT_OK, EXIT_OTHER, Parser, say
+from .terminal import Parser, exit_code_of, say
 
 
 def _chosen(folder: str, number: int | None, t: float | None) -> Any:
-    run = Path(folder)
-    states = Results(folder).states if (run / "fields.pvd").exists() or not (run / "summary.yaml").exists() else ()
-    if not len(states):
-        raise fault_of(folder, "the run has written no state", "ask for states by *DATABASE_BINARY_D3PLOT")
+    states = Results(folder).states
     if t is not None:
         return states.at(t)
     number = -1 if number is None else number
@@ -47,28 +42,28 @@ def main(words: Sequence[str]) -> int:
     is_run = Path(call.target).is_dir()
     if not is_run and (call.state is not None or call.at is not None):
         parser.error("--state and --at choose among the states of a run; a deck has its first one alone")
-    try:
+
+    def draw() -> None:
         if call.output:
             check_ending(Path(call.output))
         with tempfile.TemporaryDirectory(prefix="courant_") as folder:
             state = _chosen(call.target, call.state, call.at) if is_run else first_state(call.target, call.target, Path(folder))
-            if call.output:
-                state.plot(call.field, Path(call.output))
-                say(f"view: {call.output}\n")
-            elif not _has_display():
-                raise fault_of("", "there is no display for a window", "-o FILE.png draws a picture")
-            else:
-                state.show(call.field or "speed")
-    except CourantError as fault:
-        sys.stderr.write(f"{fault}\n")
-        return EXIT_INPUT
-    except KeyError as fault:
-        sys.stderr.write(f"error: {fault.args[0]}\n")
-        return EXIT_INPUT
-    except OutputError as fault:
-        sys.stderr.write(f"error: {fault}\n")
-        return EXIT_MISSED
-    except MissingModule as fault:
-        sys.stderr.write(f"error: {fault}\n  hint: -o FILE.png draws a picture without it\n" if not call.output else f"error: {fault}\n")
-        return EXIT_OTHER
-    return EXIT_OK
+            try:
+                _show(state, call.field, call.output)
+            except KeyError as fault:  # a field that is not there
+                raise fault_of("", str(fault.args[0])) from None
+
+    return exit_code_of(draw)
+
+
+def _show(state: Any, field: str, output: str | None) -> None:
+    if output:
+        state.plot(field, Path(output))
+        say(f"view: {output}\n")
+    elif not _has_display():
+        raise fault_of("", "there is no display for a window", "-o FILE.png draws a picture")
+    else:
+        try:
+            state.show(field or "speed")
+        except MissingModule as fault:
+            raise MissingModule(f"{fault}\n  hint: -o FILE.png draws a picture without it") from None

@@ -56,7 +56,7 @@ def swing(element: str = "SOLID 1", tssfac: float = 0.9, nu: float = 0.3, skew: 
 
 
 def strike(kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, stiffness: float = 1.0, density: float = 1.0, mach: float = 0.01, scale: float = 1.0,
-           mu: float = 0.0, tssfac: float = 0.9, steps: int = 3000) -> DeckBuilder:
+           mu: float = 0.0, tssfac: float = 0.9) -> DeckBuilder:
     """A block strikes a larger one, `stiffness` times as stiff and `density` times as dense, that rests and is free. All below the speed of sound of either."""
     c = np.sqrt(E / RHO)
     v = mach * min(c, c * np.sqrt(stiffness / density))

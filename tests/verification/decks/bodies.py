@@ -38,11 +38,6 @@ class Bodies(DeckBuilder):
             self.card("*CONSTRAINED_EXTRA_NODES_NODE", [a, ids[-2]], [b, ids[-1]])
         self.card(f"*CONSTRAINED_JOINT_{kind}", ids)
 
-    def gravity(self, g: float) -> None:
-        """Along -z."""
-        self.curve(91, [(0.0, 1.0), (2 * self.end, 1.0)])
-        self.card("*LOAD_BODY_Z", [91, g])
-
 
 def pendulum(n: int = 100, joint: str = "REVOLUTE", degrees: float = 60.0, L: float = 1.0, m: float = 2.0, J: float = 0.05, g: float = 9.81) -> Bodies:
     """A body on a bar of length L that falls from an angle; n steps in a period of small swings."""

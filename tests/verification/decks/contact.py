@@ -32,11 +32,6 @@ def _block(deck: DeckBuilder, n: int, size: tuple[float, float, float], E: float
     return ids
 
 
-def _gravity(deck: DeckBuilder, g: float) -> None:
-    deck.curve(91, [(0.0, 1.0), (1000.0, 1.0)])
-    deck.card("*LOAD_BODY_Z", [91, g])
-
-
 def slide(n: int = 2, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, mu: float = 0.3, v0: float = 1.0, g: float = 9.81, rigid: int = 1,
           E: float = 1e9) -> DeckBuilder:
     """A block that slides on a floor until friction stops it."""
@@ -44,7 +39,7 @@ def slide(n: int = 2, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0,
     ids = _block(deck, n, (0.1, 0.1, 0.1), E, 2000.0, np.eye(3), bool(rigid))
     _contact(deck, kind, mu, soft)
     deck.card("*INITIAL_VELOCITY_NODE", *([int(i), v0, 0.0, 0.0] for i in ids))
-    _gravity(deck, g)
+    deck.gravity(g)
     return deck.history([1], deck.end / 100)
 
 
@@ -56,7 +51,7 @@ def incline(n: int = 2, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 
     turn = np.array([[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]])  # x goes down
     _block(deck, n, (0.1, 0.1, 0.1), E, 2000.0, turn, bool(rigid))
     _contact(deck, kind, mu, soft)
-    _gravity(deck, g)
+    deck.gravity(g)
     return deck.history([1], T / 100)
 
 

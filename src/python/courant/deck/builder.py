@@ -78,7 +78,7 @@ class DeckBuilder:
 
     def nodes(self, points: np.ndarray, first: Sequence[int] = ()) -> np.ndarray:
         """Adds nodes at positions (n, 3) [L]; their numbers, (n,). Rows `first` get the lowest ones, which then do not depend on the mesh."""
-        order = np.array([*first, *(k for k in range(len(points)) if k not in set(first))], dtype=int)
+        order = np.concatenate([np.asarray(first, dtype=int), np.setdiff1d(np.arange(len(points)), first)]).astype(int)
         ids = np.empty(len(points), dtype=int)
         ids[order] = self._nodes + 1 + np.arange(len(points))
         self._nodes += len(points)
@@ -107,6 +107,11 @@ class DeckBuilder:
     def hold(self, ids: np.ndarray, directions: str) -> DeckBuilder:
         """Holds nodes in "x", "y", "z", and against turns "X", "Y", "Z"."""
         return self.card("*BOUNDARY_SPC_SET", [self.node_set(ids), 0, *(int(d in directions) for d in "xyzXYZ")])
+
+    def gravity(self, g: float, curve: int = 91) -> DeckBuilder:
+        """Along -z from the start on, by a curve of this number. [L/T2]"""
+        self.curve(curve, [(0.0, 1.0), (1e6, 1.0)])
+        return self.card("*LOAD_BODY_Z", [curve, g])
 
     def curve(self, number: int, points: Sequence[tuple[float, float]]) -> int:
         """*DEFINE_CURVE; its number."""

@@ -17,8 +17,8 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
     """Refuses nodes that begin in closed walls, bodies and other solids, but for those that are held, and parts that reach through walls of the box."""
     depth, dim = _DEPTH * basin.spacing, basin.dim
     solid = {id(one): one.outline(dim) for one in basin.structures if one.mesh.kind == SOLIDS}
-    for k, one in enumerate(basin.structures):
-        free = np.delete(one.mesh.points, one.fixed, axis=0)
+    free_of = [np.delete(one.mesh.points, one.fixed, axis=0) for one in basin.structures]
+    for k, (one, free) in enumerate(zip(basin.structures, free_of)):
         _check_box(one, free, basin, depth, diagnostics)
         for other in basin.solids:
             if not other.closed:
@@ -28,10 +28,10 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
             if not len(found) and id(one) in solid:
                 found = _inside(solid[id(one)], other.shape.points, depth)
             _report(one, found, name, dim, diagnostics)
-        for other in basin.structures[:k]:
+        for other, free_of_other in zip(basin.structures[:k], free_of):
             found = _inside(solid[id(other)], free, depth) if id(other) in solid else free[:0]
             if not len(found) and id(one) in solid:
-                found = _inside(solid[id(one)], np.delete(other.mesh.points, other.fixed, axis=0), depth)
+                found = _inside(solid[id(one)], free_of_other, depth)
             _report(one, found, f"'{other.title}'", dim, diagnostics)
 
 
