@@ -99,7 +99,8 @@ class ShellReader {
     out.control.thins = named && card.istupd != 0 && card.istupd != thick_alone;
     out.thins_by_flow = card.istupd == of_flow;
     const int asked = out.full ? card.nfail4 : card.nfail1;
-    out.deletes_distorted = asked == 1 && (card.psnfail == 0 || in_set(part, card, "PSNFAIL", card.psnfail));
+    if (card.psnfail == 0 || in_set(part, card, "PSNFAIL", card.psnfail))
+      out.distorted = static_cast<DistortedShells>(asked);
   }
   /// Whether a part set, or one with a minus sign, holds the part.
   bool in_set(const ModelPart& part, const ControlShell& card, const char* field, Id id) {
@@ -253,11 +254,6 @@ class ShellReader {
     refuse("ICRQ", c.icrq != 0, c.icrq, "each shell has one thickness");
     for (const auto& [field, value] : {std::pair("NFAIL1", c.nfail1), std::pair("NFAIL4", c.nfail4)})
       refuse(field, value < 0 || value > 2, value, "distorted shells stay (0), go (1) or end the run (2)");
-    if (c.nfail1 == 2 || c.nfail4 == 2)
-      deck_.warning(
-          diagnostics_, c, c.nfail1 == 2 ? "NFAIL1" : "NFAIL4",
-          "2 ends the run at a distorted shell: it goes on here, and stops where energy does not close",
-          "1 deletes them");
     refuse("CNTCO", c.cntco != 0 && has_offsets(), c.cntco,
            "contact takes shells with an offset as if their middle were at the nodes");
     refuse("DRCPSID", c.drcpsid != 0, static_cast<Real>(c.drcpsid), "rotations about the normal are free");

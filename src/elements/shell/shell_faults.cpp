@@ -18,4 +18,16 @@ void stop_for_thickness(const ElementGroup& group, Id part, Index e, Real thickn
       "its thickness (ISTUPD 0 of *CONTROL_SHELL)");
 }
 
+void stop_for_distortion(const ElementGroup& group, Id part, Index e, bool at_point, const Clock& clock) {
+  const ReadsForMessage unchecked;
+  throw RunError(
+      fmt::format("shell {} of part {} is turned inwards at one of its {} at time {:.6g}, cycle {}",
+                  group.id[e], part, at_point ? "points" : "corners", clock.t, clock.cycle),
+      StopCause::element,
+      fmt::format(
+          "the mesh is folded or sheared too far: let such shells be deleted ({} 1 of *CONTROL_SHELL), "
+          "take a finer mesh, and check what presses on it",
+          at_point ? "NFAIL4" : "NFAIL1"));
+}
+
 }  // namespace courant

@@ -13,6 +13,9 @@
 
 namespace courant {
 
+/// NFAIL1, NFAIL4: shells that turn inwards. With 2 x 2 points those that `stay` stop the run, too.
+enum class DistortedShells : std::uint8_t { stay, deleted, stop };
+
 /// What shells of a part are made of.
 struct ShellPart {
   /// Null: the part has no shells that deform. Of layers with several the first that can fail, else the
@@ -23,10 +26,10 @@ struct ShellPart {
   /// empty: `law` in all, without an angle.
   std::vector<std::shared_ptr<StrengthLaw>> laws{};
   std::vector<Real> angle{};
-  bool fails_with_all = false;     ///< FAILOPT 1: not by the points that can fail alone
-  bool faulty = false;             ///< its material has a law, and faults that are told
-  bool deletes_distorted = false;  ///< NFAIL1, NFAIL4
-  bool thins_by_flow = false;      ///< ISTUPD 4: with `control.thins`
+  bool fails_with_all = false;  ///< FAILOPT 1: not by the points that can fail alone
+  bool faulty = false;          ///< its material has a law, and faults that are told
+  DistortedShells distorted = DistortedShells::stay;
+  bool thins_by_flow = false;  ///< ISTUPD 4: with `control.thins`
   ShellControl control;
   bool full = false;              ///< ELFORM 16: 2 x 2 points in the plane of quadrilaterals
   std::vector<Real> zeta, share;  ///< points through the thickness: height over half of it, weight (sum 1)

@@ -340,8 +340,9 @@ TEST(Beams, BentFarKeepTheirEnergy) {
         deck.line(16, 0.32, [](int) { return ""; });
         std::mt19937 random(3);
         std::uniform_real_distribution<Real> number(-1, 1);
-        deck.velocity(
-            [&](int) -> Vec { return speed * Vec(number(random), number(random), number(random)); });
+        deck.velocity([&, speed = speed](int) -> Vec {
+          return speed * Vec(number(random), number(random), number(random));
+        });
         deck.cards += "*CONTROL_TIMESTEP\n       0.0       0.9\n";
         auto s = simulation_of(deck.text(1e6));
         start_ledger(*s);

@@ -72,7 +72,7 @@ TEST(LayeredShells, FollowLaminateTheory) {
   for (const auto& [count, bound] : {std::pair(1, 0.183), {2, 0.0457}, {4, 0.01143}, {10, 0.00183}}) {
     const auto found =
         measured_stiffness(with_layers(one_shell(plain_part + orthotropic(7)), "*ELEMENT_SHELL_COMPOSITE",
-                                       [&](int) { return divided(unlike, count); }));
+                                       [&, count = count](int) { return divided(unlike, count); }));
     EXPECT_LT(worst(found, expected), bound) << count;
   }
 }

@@ -121,7 +121,7 @@ TEST(ConcreteAndDamage, GissmoKnowsTheSizeOfShells) {
     deck.part(1, 0.01, gissmo_card, 3);
     deck.hold(1, "x", [](const Vec& x) { return x[0] < 1e-9; });
     deck.hold(2, "y", [](const Vec& x) { return x[1] < 1e-9; });
-    deck.node_set(3, [&](const Vec& x) { return x[0] > size - 1e-9; });
+    deck.node_set(3, [&, size = size](const Vec& x) { return x[0] > size - 1e-9; });
     deck.cards += "*BOUNDARY_PRESCRIBED_MOTION_SET\n3,1,0,1\n*DEFINE_CURVE\n1\n0.0,0.002\n1e9,0.002\n";
     auto s = simulation_of(deck.text(1e9));
     while (deleted(*s) == 0 && s->clock().t < 1000) s->step(do_nothing);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
+#include "base/run_error.hpp"
 #include "elements/shell/shells.hpp"
 #include "solid_decks.hpp"
 #include "state/ending.hpp"
@@ -96,6 +98,23 @@ TEST(CrashControls, DistortedShellsAreDeleted) {
   EXPECT_EQ(deleted(pulled_shell(elastic_steel, stays, 0, -1.2)), 0);
   EXPECT_EQ(deleted(pulled_shell(elastic_steel, goes, 0, -1.2)), 1);
   EXPECT_EQ(deleted(pulled_shell(elastic_steel, goes, 0, -0.9)), 0);
+}
+
+// With 2 x 2 points the one beside node 3 has the area 0.622 a_3 + (a_2 + a_4)/6 + 0.045 a_1 of those at the
+// corners, here (1, 1, 1 + u, 1 + u): it turns inwards at u = -1.27.
+TEST(CrashControls, DistortedShellsStopTheRun) {
+  const std::string stays = "*CONTROL_SHELL\n20.,1,-1,0\n", one_point = stays + "\n\n2,0\n",
+                    four_points = stays + "\n\n0,1\n";
+  EXPECT_THROW(deleted(pulled_shell(elastic_steel, one_point, 0, -1.2)), RunError);
+  EXPECT_EQ(deleted(pulled_shell(elastic_steel, one_point, 0, -0.9)), 0);
+  const auto full = [&](const std::string& control, Real at_3) {
+    return std::regex_replace(pulled_shell(elastic_steel, control, 0, at_3), std::regex("\n1,2\n"),
+                              "\n1,16\n");
+  };
+  EXPECT_EQ(deleted(full(stays, -1.2)), 0);
+  EXPECT_THROW(deleted(full(stays, -1.35)), RunError);
+  EXPECT_EQ(deleted(full(four_points, -1.35)), 1);
+  EXPECT_EQ(deleted(full(four_points, -1.2)), 0);
 }
 
 // c = sqrt(E/(rho (1 - nu^2))): a shell of width 0.7 has the step 0.7/c, at the density of its mass over what
