@@ -1,22 +1,42 @@
 #!/usr/bin/env bash
-# The whole product under AddressSanitizer and UndefinedBehaviorSanitizer, with the loops of every instruction set: unit tests and crafted
-# inputs for each set that this machine runs, verification tests, fuzzers of the readers. By hand, not in each run of the tests: the build
-# takes half an hour of two cores. With clang and without optimisation: instrumented loops then compile in seconds, which take g++ minutes.
-# The last line counts.
+# The product under AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and crafted inputs with the loops of every instruction set
+# that this machine runs, fuzzers of the readers, verification tests. With clang and without optimisation: instrumented loops then compile
+# in seconds, which take g++ minutes. The last line counts.
 #
-# usage: tests/sanitizers.sh [STEP]...   STEP: build, unit, crafted, readers, verification; all if none is given
+# usage: tests/sanitizers.sh [--quick] [STEP]...   STEP: build, unit, crafted, readers, verification; all if none is given
+#   --quick      what every change must pass: one instruction set, passes held to what they declare, unit and readers alone, without the
+#                unit tests that take longest; a quarter of an hour of two cores instead of hours
 #   INPUTS=500   crafted inputs for each instruction set
-#   QUICK=60     seconds after which a verification test is left out, and counted as skipped
+#   LONGEST=60   seconds after which a verification test is left out, and counted as skipped
 set -uo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/lib/setup.sh"
-build=$project/build/sanitized
+quick=
+[ "${1:-}" != --quick ] || { quick=yes; shift; }
 mkdir -p "$logs"
-[ $# -gt 0 ] || set -- build unit crafted readers verification
-flags='-O0 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined'
-export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive
 sets=(baseline)
 grep -qw avx2 /proc/cpuinfo && sets+=(avx2)
 grep -qw avx512vl /proc/cpuinfo && sets+=(avx512)
+flags='-O0 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined'
+options=(-DCOURANT_INSTRUMENT_ALL=ON)
+targets=(unit_tests fuzz_replay fuzz_readers courant)
+export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive
+if [ -n "$quick" ]; then
+  build=$project/build/sanitized_quick
+  sets=("${sets[-1]}") flags=${flags/-g1/-g0}
+  options=(-DCOURANT_CHECK_ACCESSES=ON "-DCOURANT_LEAVE_OUT=$(other_instruction_sets)")
+  [ "${sets[0]}" = baseline ] || options+=(-DCOURANT_PLAIN_LOOPS=baseline)
+  [ $# -gt 0 ] || set -- build unit readers
+  seconds=(20 1)
+  # Minutes without optimisation; and those that choose loops without sanitizers, or a kernel other than the cubic spline.
+  left_out=$(paste -sd: "$project/tests/long_when_sanitized.txt"):*/baseline:*/quadratic_spline:*/quartic_spline
+  left_out+=:*/quintic_spline:*/Wendland_C2:*/Wendland_C4
+else
+  build=$project/build/sanitized
+  [ $# -gt 0 ] || set -- build unit crafted readers verification
+  targets+=(verification_tests)
+  seconds=(60 5)
+  left_out=
+fi
 passed=0 failed=0 skipped=0
 
 count() {  # status, what ran, log
@@ -36,21 +56,31 @@ count_tests() {  # what ran, its status, log of googletest
   [ "$2" -eq 0 ] || [ "$bad" -gt 0 ] || bad=1  # a finding ends the program in the middle of a test
   passed=$((passed + good)) failed=$((failed + bad))
   say "$1: $good passed, $bad failed"
-  [ "$2" -eq 0 ] || grep -hE 'ERROR: AddressSanitizer|runtime error:|^\[  FAILED  \]|Failure$' "$3" | sort -u | head -n 40
+  [ "$2" -eq 0 ] || tail -n 60 "$3"
 }
 
 step_build() {
+  install_packages "${build_packages[@]}" "${test_packages[@]}" clang-14 libomp-14-dev
+  # Without precompiled headers, as CMake builds where nobody asks for them, so that an include that is missing is seen.
   configure -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=None -DCOURANT_TESTS=ON \
-    -DCOURANT_UNITY=ON -DCOURANT_PRECOMPILED_HEADERS=OFF "-DCMAKE_CXX_FLAGS=$flags" -DCOURANT_INSTRUMENT_ALL=ON
-  ninja -C "$build" -j "$(parallel_jobs)" -k 0 courant unit_tests verification_tests fuzz_replay fuzz_readers
+    -DCOURANT_UNITY=ON -DCOURANT_PRECOMPILED_HEADERS=OFF "-DCMAKE_CXX_FLAGS=$flags" "${options[@]}"
+  build_targets "${targets[@]}"
 }
 
-step_unit() {
-  local set log
+step_unit() {  # for each set as many parts as there are cores, side by side, each with two threads that sleep while they wait
+  local set part log parts running
+  parts=$(nproc)
   for set in "${sets[@]}"; do
-    log=$logs/sanitized_unit_$set.log
-    COURANT_SIMD=$set "$build/tests/unit_tests" >"$log" 2>&1
-    count_tests "unit tests, $set" $? "$log"
+    running=()
+    for ((part = 0; part < parts; part++)); do
+      COURANT_SIMD=$set GTEST_TOTAL_SHARDS=$parts GTEST_SHARD_INDEX=$part "$build/tests/unit_tests" "--gtest_filter=-$left_out" \
+        >"$logs/sanitized_unit_$set.$part.log" 2>&1 &
+      running+=($!)
+    done
+    for ((part = 0; part < parts; part++)); do
+      wait "${running[part]}"
+      count_tests "unit tests, $set, part $((part + 1)) of $parts" $? "$logs/sanitized_unit_$set.$part.log"
+    done
   done
 }
 
@@ -65,21 +95,22 @@ step_crafted() {
 }
 
 step_readers() {
-  local deck name results=$build/results log=$logs/sanitized_readers.log
+  local deck results=$build/results log=$logs/sanitized_readers.log
   local decks=("$project"/tests/fuzz/seeds "$project"/tests/decks/{accept,reject,warn,base})
-  "$build/tests/fuzz/fuzz_replay" --seconds 60 --limit 60 "${decks[@]}" >"$log" 2>&1
+  timeout 600 "$build/tests/fuzz/fuzz_replay" --seconds "${seconds[0]}" --limit 60 "${decks[@]}" >"$log" 2>&1
   count $? "decks changed at random" "$log"
   for deck in fuzz/results decks/accept/whole_histories; do
     "$build/courant" run "$project/tests/$deck.k" -o "$results/${deck##*/}" --quiet >"$log" 2>&1 || count 1 "run of $deck" "$log"
   done
-  "$build/tests/fuzz/fuzz_readers" --seconds 5 --limit 20 "$project" "$results/results" "$results/whole_histories" >"$log" 2>&1
+  timeout 600 "$build/tests/fuzz/fuzz_readers" --seconds "${seconds[1]}" --limit 20 "$project" "$results/results" "$results/whole_histories" \
+    >"$log" 2>&1
   count $? "files of other readers changed at random" "$log"
 }
 
 step_verification() {
   local test log=$logs/sanitized_verification.log status
   for test in $("$build/tests/verification_tests" --gtest_list_tests | awk '/^[^ ]/ {suite = $1} /^ / {print suite $1}'); do
-    OMP_NUM_THREADS=1 timeout "${QUICK:-60}" "$build/tests/verification_tests" --gtest_filter="$test" >"$log" 2>&1
+    OMP_NUM_THREADS=1 timeout "${LONGEST:-60}" "$build/tests/verification_tests" --gtest_filter="$test" >"$log" 2>&1
     status=$?
     if [ "$status" -eq 124 ]; then
       skipped=$((skipped + 1))

@@ -34,6 +34,20 @@ def test_numbers_of_chosen_nodes_do_not_depend_on_the_mesh() -> None:
         assert ids[of.nearest(1, 1, 1)] == 1 and sorted(ids) == list(range(1, len(ids) + 1))
 
 
+def test_arguments_without_a_meaning_are_refused() -> None:
+    deck, of = courant.DeckBuilder("bar", 1.0), courant.grid([2, 1, 1], [1.0, 0.1, 0.1])
+    ids = deck.mesh("SOLID", 1, of)
+    for call, word in [(lambda: courant.grid([2, 0], [1.0, 1.0]), "counts"), (lambda: courant.grid([1, 1, 1, 1], [1.0] * 4), "counts"),
+                       (lambda: courant.grid([1.5], [1.0]), "counts"), (lambda: courant.grid([2, 2], [1.0]), "to: a size"),
+                       (lambda: courant.grid([2, 2], lambda u: u), "to: positions"), (lambda: deck.nodes(of.points[:, :2]), "points"),
+                       (lambda: deck.nodes(np.full((1, 3), np.nan)), "points"), (lambda: deck.elements("BRICK", 1, ids[of.cells]), "kind"),
+                       (lambda: deck.elements("SHELL", 1, ids[of.cells]), "nodes: 3 or 4"), (lambda: deck.elements("SOLID", 1, of.cells), "nodes: numbers"),
+                       (lambda: deck.hold(ids, "xw"), "directions"), (lambda: deck.card("*MAT_ELASTIC", [1, float("nan")]), "finite")]:
+        with pytest.raises(ValueError, match=word):
+            call()
+    assert deck.card("*PART", [1, True, None]).text().splitlines()[-4] == "1,1,,"
+
+
 @needs_program
 def test_a_deck_runs(tmp_path: Path) -> None:
     """A bar that flies; a value alone on its card has more digits than a column."""

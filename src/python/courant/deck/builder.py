@@ -37,14 +37,20 @@ _CORNERS = {1: [(0,), (1,)], 2: [(0, 0), (1, 0), (1, 1), (0, 1)],
 
 def grid(counts: Sequence[int], to: Map | Sequence[float]) -> Grid:
     """Lines, quadrilaterals or hexahedra, so many along each direction, of the unit line, square or cube. `to` takes points there (n, dimensions) to
-    their positions (n, 3) [L]; or it is the size along each axis [L]. Points count along the first direction first."""
+    their positions (n, 3) [L]; or it is the size along each axis [L]. Points count along the first direction first. Raises ValueError."""
     n = [int(count) for count in counts]
+    if len(n) not in _CORNERS or min(n) < 1 or n != list(counts):
+        raise ValueError(f"counts: one to three whole numbers of at least 1, not {list(counts)}")
+    if not callable(to) and len(to) < len(n):
+        raise ValueError(f"to: a size along each of {len(n)} directions, not {list(to)}")
     axes = np.meshgrid(*(np.linspace(0, 1, count + 1) for count in n), indexing="ij")
     unit = np.stack([axis.ravel(order="F") for axis in axes], axis=1)
     number = np.arange(len(unit)).reshape([count + 1 for count in n], order="F")
     cells = np.stack([number[tuple(slice(o, o + count) for o, count in zip(corner, n))].ravel(order="F") for corner in _CORNERS[len(n)]], axis=1)
     if callable(to):
-        points = to(unit)
+        points = np.asarray(to(unit), dtype=float)
+        if points.shape != (len(unit), 3):
+            raise ValueError(f"to: positions of {len(unit)} points, ({len(unit)}, 3), not {points.shape}")
     else:
         points = np.zeros((len(unit), 3))
         points[:, : len(n)] = unit * np.array(to, dtype=float)[: len(n)]
@@ -54,9 +60,17 @@ def grid(counts: Sequence[int], to: Map | Sequence[float]) -> Grid:
 def _text(value: Value) -> str:
     if value is None:
         return ""
+    if isinstance(value, (bool, np.bool_)):
+        return str(int(value))
     if isinstance(value, (float, np.floating)):
+        if not np.isfinite(value):
+            raise ValueError(f"cards take finite numbers, not {value}")
         return repr(float(value))
     return str(value)
+
+
+_NODES_OF = {"SOLID": (4, 6, 8, 10), "TSHELL": (6, 8), "SHELL": (3, 4), "BEAM": (2, 3), "DISCRETE": (1, 2)}
+"""How many nodes an element of a kind has; what comes behind _ in the name does not change it."""
 
 
 class DeckBuilder:
@@ -77,7 +91,11 @@ class DeckBuilder:
         return self
 
     def nodes(self, points: np.ndarray, first: Sequence[int] = ()) -> np.ndarray:
-        """Adds nodes at positions (n, 3) [L]; their numbers, (n,). Rows `first` get the lowest ones, which then do not depend on the mesh."""
+        """Adds nodes at positions (n, 3) [L]; their numbers, (n,). Rows `first` get the lowest ones, which then do not depend on the mesh. Raises
+        ValueError."""
+        points = np.asarray(points, dtype=float)
+        if points.ndim != 2 or points.shape[1] != 3 or not np.isfinite(points).all():
+            raise ValueError(f"points: finite positions, (n, 3), not {points.shape}")
         order = np.concatenate([np.asarray(first, dtype=int), np.setdiff1d(np.arange(len(points)), first)]).astype(int)
         ids = np.empty(len(points), dtype=int)
         ids[order] = self._nodes + 1 + np.arange(len(points))
@@ -86,7 +104,16 @@ class DeckBuilder:
         return ids
 
     def elements(self, kind: str, part: int, nodes: np.ndarray) -> np.ndarray:
-        """Adds elements of `kind` ("SOLID", "SHELL", "BEAM") with these numbers of nodes, (m, corners); their numbers, (m,)."""
+        """Adds elements of `kind` ("SOLID", "TSHELL", "SHELL", "BEAM", "DISCRETE") with these numbers of nodes, (m, corners); their numbers, (m,).
+        Raises ValueError."""
+        counts = _NODES_OF.get(kind.partition("_")[0])
+        if counts is None:
+            raise ValueError(f"kind: one of {', '.join(_NODES_OF)}, not {kind!r}")
+        nodes = np.asarray(nodes)
+        if nodes.ndim != 2 or nodes.shape[1] not in counts:
+            raise ValueError(f"nodes: {' or '.join(map(str, counts))} numbers for each {kind}, not {nodes.shape}")
+        if nodes.size and not 1 <= nodes.min() <= nodes.max() <= self._nodes:
+            raise ValueError(f"nodes: numbers from 1 to {self._nodes}, as `nodes` has given them, not {nodes.min()} to {nodes.max()}")
         ids = self._elements + 1 + np.arange(len(nodes))
         self._elements += len(nodes)
         self.card(f"*ELEMENT_{kind}", *([int(i), part, *map(int, row)] for i, row in zip(ids, nodes)))
@@ -105,7 +132,9 @@ class DeckBuilder:
         return self._sets
 
     def hold(self, ids: np.ndarray, directions: str) -> DeckBuilder:
-        """Holds nodes in "x", "y", "z", and against turns "X", "Y", "Z"."""
+        """Holds nodes in "x", "y", "z", and against turns "X", "Y", "Z". Raises ValueError."""
+        if not directions or set(directions) - set("xyzXYZ"):
+            raise ValueError(f"directions: letters of xyzXYZ, not {directions!r}")
         return self.card("*BOUNDARY_SPC_SET", [self.node_set(ids), 0, *(int(d in directions) for d in "xyzXYZ")])
 
     def gravity(self, g: float, curve: int = 91) -> DeckBuilder:
