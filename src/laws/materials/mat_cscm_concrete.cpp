@@ -42,6 +42,10 @@ struct MatCscmConcrete : Entry {
   Real strength() const {
     return fpc > 0 ? fpc * to_stress / of_deck().stress : standard_strength;
   }  ///< [MPa]
+  Real density() const {
+    const Units to = of_deck();
+    return ro * 1e12 * to.length * to.length / (to.stress * to.time * to.time);
+  }  ///< [kg/m3]
   Real aggregate() const { return dagg > 0 ? dagg * to_length / of_deck().length : standard_aggregate; }
 
   MatCscmFields parameters() const;
@@ -89,6 +93,11 @@ void MatCscmConcrete::check(const Deck& deck, Diagnostics& diagnostics) const {
     deck.warning(diagnostics, *this, "FPC",
                  fmt::format("{:.4g} MPa is outside of what the parameters are fitted to", f),
                  "20 to 58 MPa; give the parameters by *MAT_CSCM beyond it");
+  constexpr Real usual = 2300, wide = 10;  // wide enough for light concrete and for scaled masses
+  if (ro > 0 && (density() > wide * usual || density() < usual / wide))
+    deck.warning(diagnostics, *this, "RO",
+                 fmt::format("{:.4g} is {:.4g} kg/m3 in the units of UNITS {}", ro, density(), units),
+                 "concrete has some 2300 kg/m3: UNITS is for another system than that of the deck");
 }
 
 /// Factors of units are kept: UNITS names those of the file.
