@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/run_error.hpp"
 #include "elements/erosion.hpp"
 #include "state/restartable.hpp"
 #include "state/shared_fields.hpp"
@@ -93,7 +94,9 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
       if (group->all_dead()) dead += group->group().size();
     for (const auto& group : world.groups)
       if (group->corners() > 1) all += group->size();  // lumped masses have no step
-    return {dead == all ? longest_ : none, "the last element, which is deleted"};
+    if (dead < all) return {none, "the last element, which is deleted"};
+    if (!(longest_ > 0)) stop_for_deletion_of_all();
+    return {longest_, "the last element, which is deleted"};
   }
   const std::vector<ElementFailure>& failures() const override { return failures_; }
 
@@ -105,6 +108,16 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   }
 
  private:
+  [[noreturn]] void stop_for_deletion_of_all() const {
+    const ElementFailure first = failures_.empty() ? ElementFailure{} : failures_.front();
+    throw RunError(
+        fmt::format("all elements are deleted before the first step, the first of them {} {} of part "
+                    "{} for: {}",
+                    first.kind, first.id, first.part, first.why),
+        StopCause::element,
+        "elements fulfil at the start what deletes them: a step (TDEL), a volume or a strain that "
+        "limits them, in the units of the deck");
+  }
   void weaken_beside(const std::unordered_set<Index>& torn) const {
     for (const auto& eroding : groups_) {
       if (!eroding->weakens()) continue;

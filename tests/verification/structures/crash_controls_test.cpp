@@ -1,5 +1,6 @@
 // What decks of crash models ask for beside their physics: thickness, deletion, accelerometers, loads on
 // bodies.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -129,6 +130,12 @@ TEST(CrashControls, ShellsWithASmallStepAreDeleted) {
   EXPECT_EQ(deleted(deck(0.9 * 0.87 / c)), 1);
   EXPECT_EQ(deleted(deck(0.9 * 0.80 / c)), 0);
   EXPECT_EQ(deleted(deck(0)), 0);
+  try {
+    deleted(deck(2 / c));
+    FAIL() << "runs on without elements";
+  } catch (const RunError& stop) {
+    EXPECT_THAT(stop.what(), testing::StartsWith("all elements are deleted before the first step"));
+  }
 }
 
 // A cube turns with 2 about z and goes with (3, 0, 0): its corner 11 has v = (3 + 1, -1, 0) at the start;
