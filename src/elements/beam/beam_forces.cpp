@@ -61,6 +61,8 @@ class BeamForces : public Material,
     G_ = part_.law->shear_modulus(), E_ = 9 * K * G_ / (3 * K + G_);
     for (Index e = 0; e < group_.size(); ++e) {
       start_[e] = between_ends(world.nodes.x, e).norm();
+      for (Field<Real>* h : history_)
+        if (h->info().name.rfind(element_size, 0) == 0) (*h)[e] = start_[e];
       for (int c = 0; c < 2; ++c) put_end(e, c, Quaternion(part_.axes[at(e)]));
     }
     if (shown) add_shown_fields();

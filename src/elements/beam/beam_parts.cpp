@@ -12,6 +12,7 @@
 #include "elements/beam/section_beam.hpp"
 #include "elements/beam/standard_section.hpp"
 #include "laws/fluid/mat_null.hpp"
+#include "laws/strength/beam_stress.hpp"
 #include "model/transforms/transformation.hpp"
 
 namespace courant {
@@ -19,8 +20,6 @@ namespace courant {
 namespace {
 
 constexpr const char* weld_material = "MAT_SPOTWELD";
-constexpr const char* by_point[] = {"MAT_ELASTIC", "MAT_PLASTIC_KINEMATIC",
-                                    "MAT_PIECEWISE_LINEAR_PLASTICITY"};
 
 /// Points of Gauss (1 to 4), or with `lobatto` three of Lobatto, on [-1, 1], and weights with the sum 1.
 std::vector<std::array<Real, 2>> points_on_line(int count, bool lobatto) {
@@ -92,23 +91,23 @@ class BeamReader {
       return error(part.card, "MID",
                    fmt::format("the beams of part {} need a material with strength and id {}; {}", part.id,
                                part.mid, deck_.found_instead(IdSpace::material, part.mid)),
-                   s.weld()
-                       ? "ELFORM 9 takes *MAT_SPOTWELD"
-                       : "beams take *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC, *MAT_PIECEWISE_LINEAR_PLASTICITY");
+                   s.weld() ? "ELFORM 9 takes *MAT_SPOTWELD"
+                            : "beams take isotropic materials, such as *MAT_ELASTIC or "
+                              "*MAT_PIECEWISE_LINEAR_PLASTICITY");
     const std::string& name = law->second.second;
-    const bool elastic = name == by_point[0];
+    const bool elastic = name == "MAT_ELASTIC";
     if (s.weld() || name == weld_material) {
       if (!s.weld() || name != weld_material)
         return error(part.card, "MID",
                      fmt::format("*{} is not supported in the beams of part {}", name, part.id),
                      s.weld() ? "ELFORM 9 takes *MAT_SPOTWELD" : "*MAT_SPOTWELD goes with ELFORM 9");
-    } else if (!elastic && (out.kind == BeamKind::resultant ||
-                            std::find(std::begin(by_point), std::end(by_point), name) == std::end(by_point)))
+    } else if (!elastic && (out.kind == BeamKind::resultant || !serves_in_beams(*law->second.first)))
       return error(part.card, "MID",
                    fmt::format("*{} is not supported in the beams of part {}", name, part.id),
                    out.kind == BeamKind::resultant
                        ? "ELFORM 2 takes *MAT_ELASTIC; ELFORM 1 has plastic materials, too"
-                       : "use *MAT_ELASTIC, *MAT_PLASTIC_KINEMATIC or *MAT_PIECEWISE_LINEAR_PLASTICITY");
+                       : "beams take isotropic materials that need no equation of state; of rubbers, foams, "
+                         "fabrics and composites none");
     if ((out.kind == BeamKind::resultant || s.weld()) && has_erosion_card(deck_, part.mid))
       return error(part.card, "MID",
                    fmt::format("*MAT_ADD_EROSION is not supported in the beams of part {}, {}", part.id,
