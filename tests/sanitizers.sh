@@ -23,7 +23,7 @@ export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive
 if [ -n "$quick" ]; then
   build=$project/build/sanitized_quick
   sets=("${sets[-1]}") flags=${flags/-g1/-g0}
-  options=(-DCOURANT_CHECK_ACCESSES=ON "-DCOURANT_LEAVE_OUT=$(other_instruction_sets)")
+  options+=(-DCOURANT_CHECK_ACCESSES=ON "-DCOURANT_LEAVE_OUT=$(other_instruction_sets)")
   [ "${sets[0]}" = baseline ] || options+=(-DCOURANT_PLAIN_LOOPS=baseline)
   [ $# -gt 0 ] || set -- build unit readers
   seconds=(20 1)
