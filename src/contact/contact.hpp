@@ -1,6 +1,6 @@
 #pragma once
 // Penalty contact of SPH particles with shells and exterior faces of solids, in 3D and (walls extruded in z)
-// in 2D. See docs/theory.md.
+// in 2D. See docs/theory_contact.md.
 #include <cstdint>
 #include <functional>
 #include <limits>

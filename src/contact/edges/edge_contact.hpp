@@ -1,5 +1,5 @@
 #pragma once
-// Penalty contact of edges of shells and solids, and of beams, with each other. Equations: docs/theory.md.
+// Penalty contact of edges of shells and solids, and of beams, with each other. Equations: docs/theory_contact.md.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -18,7 +18,7 @@
 
 namespace courant {
 
-/// The interface at work, see docs/theory.md. Edges that cross touch where they are nearest to each other;
+/// The interface at work, see docs/theory_contact.md. Edges that cross touch where they are nearest to each other;
 /// along a line of edges the nearest pair has the touch, and hands it on. Edges that begin to touch side by
 /// side have two touches, at Gauss points of the length that they share. A touch knows the side that it came
 /// from, so neither thin beams nor speed make it go on the wrong side.

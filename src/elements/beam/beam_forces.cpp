@@ -24,7 +24,7 @@ namespace {
 
 using Quaternion = Eigen::Quaterniond;
 /// Beams of a part: they turn with their ends and nodes as far as these are rigid, and what is left deforms
-/// them. Theory: docs/theory.md.
+/// them. Theory: docs/theory_structures.md.
 class BeamForces : public Material,
                    public TimeLimit,
                    public EnergyTerm,

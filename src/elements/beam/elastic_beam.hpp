@@ -18,7 +18,7 @@ struct ElasticBeam {
 };
 
 /// Linear in elongation, twist and rotations of the ends, of the beam of Euler and Bernoulli, or with a shear
-/// area of Timoshenko. docs/theory.md
+/// area of Timoshenko. docs/theory_structures.md
 Six resultant_end_forces(const ElasticBeam& beam, const BeamMeasures& m, const Six& d);
 /// The same where no moment passes hinges, and no pull an end that slides: the ends of the beam turn and move
 /// there as they would alone.

@@ -8,7 +8,7 @@
 // it is; triangle: d0 = x2 - x1, d1 = x3 - x1. The normal e3 is along d0 x d1, A = |d0 x d1|/2, and of any
 // nodal value v, with its differences v0, v1 taken as d0, d1,
 //   A dv/dx = (y1 v0 - y0 v1)/2,   A dv/dy = (x0 v1 - x1 v0)/2
-// in the plane of the element. Theory, with the signs of moments: docs/theory.md.
+// in the plane of the element. Theory, with the signs of moments: docs/theory_structures.md.
 #include "base/real.hpp"
 #include "parallel/parallel.hpp"
 

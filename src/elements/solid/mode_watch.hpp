@@ -14,7 +14,7 @@ using SecondGradient = Eigen::Matrix<Real, 3, 6>;
 /// Of the modes of bending and twisting of a brick. `start` and `now`: its corners in LS-DYNA's order;
 /// homogeneous deformation and rigid motion have none.
 SecondGradient second_gradient(const std::array<Vec, 8>& start, const std::array<Vec, 8>& now);
-/// What that would cost in the material, by the assumed strains of IHQ 6 with QM 1 (docs/theory.md, Solids).
+/// What that would cost in the material, by the assumed strains of IHQ 6 with QM 1 (docs/theory_structures.md, Hourglass control).
 /// [ML2/T2]
 Real bending_energy(const std::array<Vec, 8>& start, const SecondGradient& gradient,
                     const SolidControl& material);

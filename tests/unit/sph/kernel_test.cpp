@@ -167,7 +167,7 @@ Real shear_stiffness(KernelChoice choice, Real h, Real turn) {
   return (work_of_shear(choice, h, turn, d) - work_of_shear(choice, h, turn, -d)) / (2 * d);
 }
 
-// The table of docs/theory.md: how much the sums of a lattice resist shear that leaves its density as it is.
+// The table of docs/theory_sph.md: how much the sums of a lattice resist shear that leaves its density as it is.
 TEST(KernelChoice, SaysHowStiffALatticeUnderPressureIs) {
   const Real diagonal = pi / 4;
   EXPECT_NEAR(shear_stiffness(KernelChoice::cubic_spline, 1.2, 0), 0.282, 5e-4);

@@ -1,5 +1,5 @@
 // Water and structures that deform: contact of particles with shells and solids, in planes and in space.
-// Equations: docs/theory.md.
+// Equations: docs/theory_contact.md.
 #include <cmath>
 #include <cstdio>
 

@@ -430,7 +430,7 @@ void WallImages::give(const WallPull& pull, Real times, Block& block) const {
 }
 
 void WallImages::weigh_edges(World& world) {
-  constexpr Real dry = 0.06, wet = 0.16, enough = 0.015;  // docs/theory.md, METHOD 1
+  constexpr Real dry = 0.06, wet = 0.16, enough = 0.015;  // docs/theory_walls.md, METHOD 1
   for_each(world.particles.active, [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     const Real thrown_back = edge_sum_[0][k], seen = edge_sum_[1][k];
