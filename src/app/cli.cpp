@@ -17,6 +17,7 @@
 #include "app/python_program.hpp"
 #include "app/run_deck.hpp"
 #include "app/terminal.hpp"
+#include "base/version.hpp"
 #include "keyword/help/keyword_state.hpp"
 #include "keyword/read/cases.hpp"
 #include "keyword/registry.hpp"
@@ -267,7 +268,7 @@ std::vector<std::string> translate_habits(int argc, char** argv) {
 
 int command_line(int argc, char** argv) {
   CLI::App app{"Courant: explicit multiphysics solver for LS-DYNA-style keyword decks", "courant"};
-  app.set_version_flag("--version", std::string("courant ") + COURANT_VERSION);
+  app.set_version_flag("--version", std::string("courant " COURANT_VERSION "\n" COURANT_BUILD));
   app.require_subcommand(1);
   app.footer(
       "\n`courant check DECK.k` tells what is made of a deck, `courant run DECK.k -o DIR` computes it,\n"

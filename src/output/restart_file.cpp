@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/version.hpp"
 #include "output/file.hpp"
 #include "output/hdf5.hpp"
 

@@ -10,6 +10,7 @@
 #include "app/run/app_cards.hpp"
 #include "app/run/result_folder.hpp"
 #include "base/instruction_set.hpp"
+#include "base/version.hpp"
 #include "output/hdf5.hpp"
 #include "output/restart_file.hpp"
 
