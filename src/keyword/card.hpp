@@ -57,7 +57,7 @@ class Allowed {
  public:
   constexpr Allowed() = default;
   constexpr Allowed(std::initializer_list<int> values) : size_(values.size()) {
-    if (size_ > values_.size()) throw std::length_error("a field allows more values than there is room for");
+    if (size_ > values_.size()) throw std::length_error("a field allows more values than fit");
     std::copy(values.begin(), values.end(), values_.begin());
   }
   constexpr const int* begin() const { return values_.data(); }

@@ -277,7 +277,7 @@ class PressureReader {
                     fmt::format("the face of node {} is {:.4g} ft/lb^(1/3) from charge {}, and the fits hold "
                                 "from {:g} to {:g}",
                                 id[0], charge->scaled(distance), card.bid, range.least, range.most),
-                    "check M, the place of the charge and UNIT, or leave the face out");
+                    "check M, the position of the charge and UNIT, or leave the face out");
     }
     face.blast = static_cast<Index>(blasts.size());
     blasts.push_back({static_cast<std::size_t>(charge - charges.begin()), *wave, card.scalep});

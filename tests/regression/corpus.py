@@ -151,7 +151,7 @@ def classify(code, errors):
 
 def reason(message):
     """A message without what is particular to one deck."""
-    message = re.sub(r" \(here and in \d+ more places?\)", "", message)
+    message = re.sub(r" \(here and at \d+ more lines?\)", "", message)
     if m := re.search(r"^\*[^\s:]+: (.*)", message):
         return re.sub(r"'[^']*'", "'...'", m.group(1))
     return re.sub(r"'[^']*'", "'...'", re.sub(r"^.*?\]\): ", "", re.sub(r"\d+", "N", message)))

@@ -92,7 +92,8 @@ Restart latest_of(const fs::path& folder) {
     std::string text =
         fmt::format("cannot restart from '{}': there is no whole restart file in it", folder.string());
     for (const std::string& fault : faults) text += "\n  " + fault;
-    throw RestartError(text + "\n  hint: start the run anew; *DATABASE_BINARY_RUNRSF asks for restart files");
+    throw RestartError(text +
+                       "\n  hint: start the run again; *DATABASE_BINARY_RUNRSF requests restart files");
   }
   Restart out = read(file);
   out.warnings.insert(out.warnings.begin(), faults.begin(), faults.end());
@@ -122,7 +123,7 @@ Restart open_restart(const fs::path& file_or_folder) {
     const std::string other = latest_whole(restart_files(folder), file_or_folder, ignored);
     throw RestartError(std::string(fault.what()) + "\n  hint: " +
                        (other.empty() ? "give a file that `courant run` wrote to its folder restart/, or the "
-                                        "folder of the run; without one start the run anew"
+                                        "folder of the run; without one start the run again"
                                       : fmt::format("'{}' is whole: --restart {}", other, other)));
   }
 }

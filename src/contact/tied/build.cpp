@@ -176,10 +176,9 @@ class TiedBuilder {
     if (share == 1) return 1;
     diagnostics_.warning(
         deck_.where(*first_card_),
-        fmt::format(
-            "{}: nodes stand so far beside small or light faces, which turn them about, that the step "
-            "is {:.3g} of that of the elements",
-            deck_.keyword(*first_card_), share),
+        fmt::format("{}: nodes are so far beside small or light faces, which rotate them, that the step "
+                    "is {:.3g} of that of the elements",
+                    deck_.keyword(*first_card_), share),
         "leave out nodes that are far from their faces, or make these larger or thicker");
     return share;
   }

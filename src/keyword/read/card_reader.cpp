@@ -301,7 +301,7 @@ bool CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec,
     return false;
   diagnostics_->warning(
       here(static_cast<int>(last)),
-      fmt::format("*{}: a number runs across column {}, the last of card {}; what stands behind is not read",
+      fmt::format("*{}: a number runs across column {}, the last of card {}; the rest is not read",
                   spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
   return true;
 }

@@ -122,7 +122,7 @@ void MatFuChangFoam::check(const Deck& deck, const Model& model, Diagnostics& di
   check_curves_over_rate(deck, model, *this, "TBID", tbid, -1e10, diagnostics);
   if (diagnostics.errors() == errors && tflag == 1 && !(CurvesOverRate(model, tbid).begins < 0))
     deck.error(diagnostics, *this, "TBID", "TFLAG 1 needs curves that have tension",
-               "tension stands below 0, strain and stress");
+               "tension is below 0, strain and stress");
 }
 
 /// Of the fit that a table stands for.

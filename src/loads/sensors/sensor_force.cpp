@@ -99,7 +99,7 @@ Vec sensor_direction(const Deck& deck, const Model& model, const Entry& card, co
   const Vec along = vector->second.head - vector->second.tail;
   if (vector->second.moves || !(along.norm() > 0))
     deck.error(diagnostics, card, "VID", fmt::format("vector {} turns with nodes, or has no direction", vid),
-               "give it by two places that differ");
+               "give it by two points that differ");
   return along.norm() > 0 ? Vec(along.normalized()) : Vec(Vec::Zero());
 }
 

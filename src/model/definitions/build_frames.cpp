@@ -57,7 +57,7 @@ bool moved_alike(const Deck& deck, const Entry& entry, Id cid) {
 }
 
 std::string moved_otherwise(Id cid) {
-  return fmt::format("system {} stands in a file that *INCLUDE_TRANSFORM moves otherwise", cid);
+  return fmt::format("system {} is in a file that *INCLUDE_TRANSFORM moves otherwise", cid);
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ void ModelBuilder::build_vectors() {
                         .moves = true};
     if (v.tail == v.head)
       error(card, "NODEH",
-            fmt::format("vector {} has no length: nodes {} and {} are in one place", card.vid, card.nodet,
+            fmt::format("vector {} has no length: nodes {} and {} are at one position", card.vid, card.nodet,
                         card.nodeh));
     model_.vectors.emplace(card.vid, v);
   }

@@ -18,7 +18,7 @@ template <class T, Id T::*Local>
 std::string refuse_scaling(T& card, const Affine& motion) {
   if (card.*Local == 0) return {};
   if (motion.linear().determinant() < 0) return "the file is mirrored, and a system is right-handed";
-  return refuse_stretch(motion, "places in a system");
+  return refuse_stretch(motion, "positions in a system");
 }
 
 const RegisterKeyword<DefineBoxLocalCard> define_box_local{define_box_local_table()};

@@ -215,7 +215,7 @@ std::string purpose_of(SetKind kind, SetForm form) {
     case SetForm::advanced:
       return "all nodes of other sets of several kinds";
     case SetForm::intersect:
-      return fmt::format("{}s that stand in every one of several sets", word);
+      return fmt::format("{}s that are in every one of several sets", word);
     case SetForm::general:
       break;
   }

@@ -335,14 +335,14 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
   }
   constexpr std::size_t deepest = 1000;
   if (it->second.state == State::open && path_.size() >= deepest) {
-    error(card, field, id, fmt::format("sets stand in sets more than {} deep", deepest),
+    error(card, field, id, fmt::format("sets are nested more than {} deep", deepest),
           "name the sets at the bottom themselves");
     return nullptr;
   }
   resolve(kind, id, it->second);
   if (left_out_.contains({kind, id}))  // by a number in the text of a row that a parameter stands for
     error(card, field, id, fmt::format("{} set {} has members that are not there", set_word(kind), id),
-          "the warning tells which");
+          "the warning names them");
   const Members& found = target(kind)[id];
   return found.empty() ? nullptr : &found;  // an empty set was refused already
 }

@@ -64,7 +64,7 @@ std::string turn_height(Table& card, const Affine& motion) {
 template <typename Table>
 std::string refuse_mirror(Table&, const Affine& motion) {
   if (motion.linear().determinant() > 0) return {};
-  return "the file is mirrored, and layers of shells would lie the other way round";
+  return "the file is mirrored, and layers of shells would be reversed";
 }
 
 }  // namespace courant

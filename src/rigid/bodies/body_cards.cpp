@@ -90,7 +90,7 @@ class BodyCardReader {
       return error(card, field, fmt::format("coordinate system {} does not exist", id),
                    "define it with *DEFINE_COORDINATE_SYSTEM");
     if (system->second.moves)
-      return error(card, field, fmt::format("system {} turns with nodes", id), "use one that stands still");
+      return error(card, field, fmt::format("system {} turns with nodes", id), "use a fixed one");
     return system->second.axes;
   }
   std::nullopt_t error(const Entry& card, const char* field, std::string message, std::string hint) {

@@ -216,7 +216,7 @@ TEST(BeamRules, AreRefusedByName) {
   expect("*INTEGRATION_BEAM\n7,0,0.0,13\n0.05,0.01,0.1,0.01\n", "'13' is not supported: 1 to 9 and 11 are");
   expect("*INTEGRATION_BEAM\n7,0,0.0,1\n0.05,0.06,0.1,0.01\n", "flanges must be thinner than D");
   expect("*INTEGRATION_BEAM\n7,1,0.0,0\n0.0,0.0,1.0\n", "the section has no area");
-  expect("*INTEGRATION_BEAM\n7,2,1.0,0\n0.0,0.0,1.0\n", "1 points stand here, not 2");
+  expect("*INTEGRATION_BEAM\n7,2,1.0,0\n0.0,0.0,1.0\n", "1 points are given, not 2");
   expect("*INTEGRATION_BEAM\n7,1,1.0,0\n0.0,1.5,1.0\n", "point 1 lies outside of the section");
   expect("*INTEGRATION_BEAM\n7,1,1.0,0\n0.0,0.5,0.5\n", "the weights sum up to 0.5");
   expect("*INTEGRATION_BEAM\n7,1,1.0,0\n0.0,0.5,1.0,1\n", "PID");
