@@ -1,4 +1,4 @@
-"""Writes the pages, one of the paper's cases and one of jumps that stand still: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
+"""Writes the pages, one of the paper's cases and one of standing jumps: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
 import paper_figures
 import paper_study
 from case_post import evaluated
@@ -146,7 +146,7 @@ def failure(run):
 
 
 def beside(page, ending):
-    """The page of jumps that stand still or of the study, beside that of the paper's cases."""
+    """The page of standing jumps or of the study, beside that of the paper's cases."""
     return page.with_name(page.stem.removesuffix("_paper") + ending + page.suffix)
 
 

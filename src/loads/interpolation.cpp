@@ -112,7 +112,7 @@ class InterpolationForces : public Constraint {
 };
 
 /// The mean velocity and spin of the independent nodes over the step move the dependent one, which a motion
-/// of all as one keeps in its place exactly.
+/// of all as one keeps instead exactly.
 class ByMeans : public Carriage {
  public:
   explicit ByMeans(std::vector<Interpolation> all) : all_(std::move(all)) {}

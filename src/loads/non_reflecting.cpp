@@ -73,7 +73,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
  private:
   Points points_;
   const Field<Index>* driven_;  ///< null: nothing is
-  std::vector<Index> at_;       ///< of each node of the world its place below; -1: none
+  std::vector<Index> at_;       ///< of each node of the world its position below; -1: none
   std::vector<Index> nodes_;
   std::vector<Matrix> damping_;
   std::vector<Vec> force_;  ///< of the dampers now [ML/T2]

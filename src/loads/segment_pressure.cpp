@@ -27,7 +27,7 @@ const RegisterKeyword<Segment> load_segment_keyword{load_segment_table()};
 const RegisterKeyword<LoadSegmentSet> load_segment_set_keyword{load_segment_set_table()};
 
 struct LoadShell : LoadShellFields {
-  bool is_set() const { return name == 1; }  ///< names stand in this order
+  bool is_set() const { return name == 1; }  ///< names are in this order
 };
 
 const RegisterKeyword<LoadShell> load_shell_keyword{load_shell_element_table()};

@@ -272,7 +272,7 @@ class ParticleBuilder {
     for (const ModelSph& s : model_.sph) {
       const Conversion& c = deck_.files[static_cast<std::size_t>(s.card.file)].conversion;
       if (c.units.length == 1) continue;
-      if (deck_.keyword(s.card) != "*ELEMENT_SPH") return;  // those of inlets stand behind all of them
+      if (deck_.keyword(s.card) != "*ELEMENT_SPH") return;  // those of inlets are behind all of them
       deck_.error(diagnostics_, s.card, "MASS",
                   fmt::format("in 2D masses are per unit of depth, and the file has another unit of length "
                               "(FCTLEN {:g}), which leaves open what the depth is",

@@ -164,7 +164,7 @@ std::vector<std::string> RestartSchedule::due(std::int64_t cycle) {
 
 bool prepare_folder(const RunOptions& options, const Deck& deck) {
   const fs::path dir = options.dir;
-  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
+  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is reported then
   const bool goes_on = options.restart && fs::equivalent(fs::absolute(options.restart->file).parent_path(),
                                                          dir / "restart", ignored);
   std::vector<fs::path> inputs;

@@ -354,7 +354,7 @@ class Run {
     failure_ = " *** Error: " + reason;
   }
 
-  /// What the state tells of the failure: advice, and the state itself for those who want to look.
+  /// What the state reports the failure: advice, and the state itself for those that want to look.
   void explain(const RunError& error) {
     failed_state_ = true;
     s_.guard().note_ranges(s_.world(), s_.clock());

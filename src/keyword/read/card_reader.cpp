@@ -252,7 +252,7 @@ bool CardReader::begins_entry(std::string_view line) {
   return true;
 }
 
-/// Numbers of parameters stand in parentheses, so that signs keep their operand.
+/// Numbers of parameters are in parentheses, so that signs keep their operand.
 void CardReader::read_whole_line(const DataLines& data, std::size_t card, EntrySink& sink) {
   line_ = static_cast<int>(data.index()) + 1;
   const std::string_view line = data.line();
@@ -306,7 +306,7 @@ bool CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec,
   return true;
 }
 
-/// Of a list of ids, whether a blank field or 0 has a place in it.
+/// Of a list of ids, whether a blank field or 0 has a location in it.
 bool CardReader::keeps_zeros(std::size_t card, const FieldSpec& spec) const {
   return spec.type == FieldType::ids && (spec_->cards[card].is_table || spec.rules.pairs);
 }

@@ -34,7 +34,7 @@ void Parameters::define(const Definition& definition, Diagnostics& diagnostics) 
     read_value(definition, value, diagnostics);
   } else {
     given->second.used = true;
-    Value of_deck = value;  // tells what the definition is made of; its faults do not matter
+    Value of_deck = value;  // states what the definition is made of; its faults do not matter
     Diagnostics unheard;
     read_value(definition, of_deck, unheard);
     value.made_of = of_deck.made_of;

@@ -125,7 +125,7 @@ void MatFuChangFoam::check(const Deck& deck, const Model& model, Diagnostics& di
                "tension is below 0, strain and stress");
 }
 
-/// Of the fit that a table stands for.
+/// Of the fit that a table represents.
 const std::string foam_curve = "*DEFINE_CURVE\n5\n0.0,0.0\n0.25,1.0\n1.0,4.0\n";
 // By hand. E = 10; f = 4 e. D dt = (-2/3, 0, 0): l = 1/2: f = 2 over an area that is as it was.
 const RegisterStrength<MatFuChangFoam> mat_fu_chang_foam{

@@ -179,7 +179,7 @@ std::vector<Real> scaled(const std::vector<Real>& values, Real scale, Real offse
 void ModelBuilder::build_tables() {
   for (const DefineTableCard& card : deck_.all<DefineTableCard>()) {
     Table table{.id = card.tbid, .value = scaled(card.value, card.sfa, card.offa)};
-    // entries stand in the order of reading; the curves come behind the table in the same file
+    // entries are in the order of reading; the curves come behind the table in the same file
     const auto& curves = deck_.all<DefineCurveCard>();
     auto next = std::find_if(curves.begin(), curves.end(), [&](const DefineCurveCard& c) {
       return c.file == card.file && c.line > card.line;

@@ -24,7 +24,7 @@ bool has_offset(const ElementInertiaCardFields& card) {
   return card.name == 1;
 }
 
-/// The tensor turns with the file, unless it stands in axes of its own, which turn.
+/// The tensor turns with the file, unless it is in axes of its own, which turn.
 std::string move_inertia(ElementInertiaCardFields& fields, const Affine& motion) {
   auto& card = static_cast<ElementInertiaCard&>(fields);
   if (card.csid != 0) return {};

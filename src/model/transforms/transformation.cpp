@@ -221,7 +221,7 @@ class Evaluation {
 };
 
 /// Finds nodes for transformations. Those of files that are moved otherwise than the transformation's own
-/// file have no place yet.
+/// file have no position yet.
 Evaluation::NodeOfId node_finder(const Deck& deck, Diagnostics& diagnostics) {
   std::unordered_map<Id, const NodeCard*> nodes;
   const auto& cards = deck.all<Card>();

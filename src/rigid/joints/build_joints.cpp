@@ -133,7 +133,7 @@ class JointReader {
     return own;
   }
 
-  /// Nodes of a pair are at one place but for the rounding of the deck: the middle counts for both, also
+  /// Nodes of a pair are at one position but for the rounding of the deck: the middle counts for both, also
   /// where they are a little apart.
   bool meet(const JointCard& card, std::size_t pair, Real size, Vec& middle) {
     constexpr Real rounding = 1e-4, digits = 1e-6,
@@ -156,8 +156,8 @@ class JointReader {
                  "the nodes of a pair must be at the same position at the start");
   }
 
-  /// What slides along its axis may have its nodes anywhere on that. True: they are not at one place, and all
-  /// is well; nothing: they are.
+  /// What slides along its axis may have its nodes anywhere on that. True: they are not at one position, and
+  /// all is well; nothing: they are.
   std::optional<bool> read_line(const JointCard& card, const Joint& joint, Real size) {
     constexpr Real rounding = 1e-4, digits = 1e-6;  // as above
     if (joint.kind != JointKind::screw && joint.kind != JointKind::cylindrical) return std::nullopt;
@@ -204,7 +204,7 @@ class JointReader {
     return false;
   }
 
-  /// Gears and motors, whose nodes are at places of their own.
+  /// Gears and motors, whose nodes are at positions of their own.
   bool read_apart(const JointCard& card, Joint& joint) {
     JointPlaces places;
     places.sixth = joint.kind == JointKind::rack_and_pinion && card.n6 != 0;

@@ -68,7 +68,7 @@ class RiemannMomentum : public Rate {
 
 /// Largest step by the decay of the particle's pressure. An explicit step holds up to 2/lambda, and lambda,
 /// the fastest decay of all patterns of pressure, was 1.02 to 1.49 of the largest decay of one particle's: on
-/// square and cubic lattices of h/dx 1 to 2, the same with two particles in each place, disturbed ones and
+/// square and cubic lattices of h/dx 1 to 2, the same with two particles in each position, disturbed ones and
 /// particles strewn at random.
 constexpr Real most_decay = 1.25;
 

@@ -1,4 +1,4 @@
-// The quick way through tables must say and store what the careful one does.
+// The fast path through tables must say and store what the careful one does.
 #include "keyword/read/table_lines.hpp"
 
 #include <gtest/gtest.h>

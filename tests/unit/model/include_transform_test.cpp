@@ -347,7 +347,7 @@ TEST(IncludeTransform, ComposesWhenNested) {
                           .other = 600}};
   const Writing whole{
       .units = {.mass = 1000, .time = 1, .length = 1e-3}, .offsets = offsets, .moved = outer * inner};
-  // transformation 2 stands in the outer file: its centre is given in km, its id is shifted by IDDOFF
+  // transformation 2 is in the outer file: its centre is given in km, its id is shifted by IDDOFF
   expect_same_scene(
       whole, "*DEFINE_TRANSFORMATION\n1\nTRANSL, 5.0, -6.0, 7.0\n" + include_transform("outer.k", out, 1),
       {{"outer.k", "*DEFINE_TRANSFORMATION\n2\nROTATE, 0.0, 0.0, 1.0, 2.0, 0.0, 0.0, 90.0\n" +

@@ -79,7 +79,7 @@ TEST(Transformation, RotatesAboutTwoPoints) {
 }
 
 TEST(Transformation, MovesPointsWithAllOperationsAbove) {
-  // whether a POINT stands above or below the translation, the axis is at x = 11 when it is used
+  // whether a POINT is above or below the translation, the axis is at x = 11 when it is used
   for (const char* operations :
        {"POINT, 1, 1.0\nPOINT, 2, 1.0, 0.0, 1.0\nTRANSL, 10.0\nROTATE, 1, 2, 90.0\n",
         "TRANSL, 10.0\nPOINT, 1, 1.0\nPOINT, 2, 1.0, 0.0, 1.0\nROTATE, 1, 2, 90.0\n"})
