@@ -3,8 +3,9 @@
 
 usage: packages.py deb|source|image [FOLDER]
 Files go to FOLDER, build/packages if it is not given. `deb` packs the build that COURANT_BUILD names (build/release), else one is made
-in build/wheel, and checks the package with lintian. `source` packs the committed tree. `image` builds the container from the Debian
-package in FOLDER, by podman or docker. The wheel is made by `pip wheel .` (wheel_of_build.py).
+in build/wheel, and checks the package with lintian; DEBFULLNAME and DEBEMAIL name the maintainer. `source` packs the committed tree.
+`image` builds the container from the Debian package in FOLDER, by podman or docker. The wheel is made by `pip wheel .`
+(wheel_of_build.py).
 """
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ import wheel_of_build  # noqa: E402
 
 ROOT = wheel_of_build.ROOT
 VERSION = wheel_of_build._version()
-MAINTAINER = f"{os.environ.get('DEBFULLNAME', 'The Courant authors')} <{os.environ.get('DEBEMAIL', 'courant@debian.local')}>"
+# lintian wants an address that can exist: give DEBEMAIL
+MAINTAINER = f"{os.environ.get('DEBFULLNAME', 'The Courant authors')} <{os.environ.get('DEBEMAIL', 'courant@localhost.localdomain')}>"
 
 CONTROL = """\
 Package: courant
@@ -96,7 +98,7 @@ def committed() -> datetime:
     return datetime.fromtimestamp(int(done.stdout), timezone.utc) if done.returncode == 0 else datetime.now(timezone.utc)
 
 
-def place_files(installed: Path, root: Path, multiarch: str) -> list[Path]:
+def stage_files(installed: Path, root: Path, multiarch: str) -> list[Path]:
     """Files of the package below `root`; the binaries among them."""
     usr, private = root / "usr", f"/usr/lib/{multiarch}/courant"
     program, library = usr / "bin" / "courant", root / private[1:] / "libcourant.so.0"
@@ -145,7 +147,7 @@ def deb(folder: Path) -> Path:
     with tempfile.TemporaryDirectory() as made:
         installed, root = Path(made, "installed"), Path(made, "root")
         run("cmake", "--install", build, "--prefix", installed)
-        binaries = place_files(installed, root, multiarch)
+        binaries = stage_files(installed, root, multiarch)
         documents(root)
         for path in sorted(root.rglob("*")):
             if not path.is_symlink():
