@@ -10,7 +10,7 @@ usage: bash examples/abrupt_drop/paper.sh [options]
   --study           also test T1 at more spacings, and the level at the end swept up and down: hours
   --results FOLDER  where runs go (results/abrupt_drop_paper)
   --page FILE       the page (docs/abrupt_drop_paper.md); beside it go figures/abrupt_drop
-  --quick           0.5 s in place of each run, to try the script: results/abrupt_drop_quick, and the page in there
+  --quick           0.5 s instead of each run, to try the script: results/abrupt_drop_quick, and the page in there
 
 A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
 restart file. A run that fails is reported, the others go on. The page shows all runs that are complete in the folder.
@@ -31,7 +31,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 SCENES = PROJECT / "keyword_decks" / "abrupt_drop"
 RECIPE = SCENES / "post.yaml"
-FIRST_GUESS = {"mixing length": 2500, "others": 1000}  # ns per particle and step on one thread, until a run has told
+FIRST_GUESS = {"mixing length": 2500, "others": 1000}  # ns per particle and step on one thread, until a run has reported
 QUICK = {"endtim": 0.5, "settled": [0.1, 0.5], "times": [0.1, 0.2, 0.3, 0.5]}
 
 

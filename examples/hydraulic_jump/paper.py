@@ -8,12 +8,12 @@ usage: bash examples/hydraulic_jump/paper.sh [options]
   --threads N       threads of each run (all cores, shared among the jobs)
   --only NAME,...   these runs of paper_runs.yaml (d4,d5,d6,d10, d4_c1484, fr34, ...) and variants of study_runs.yaml (base, xsph, ...) alone
   --paper-setting   also the paper's speed of sound, 1484 m/s: one to two hours of processor time
-  --standing        also jumps that stand still, Froude numbers 2.4 to 6.5
+  --standing        also standing jumps, Froude numbers 2.4 to 6.5
   --study           also the jump of d1/4 with each option and number of the deck changed in turn, several runs of each (study_runs.yaml):
                     docs/hydraulic_jump_study.md, error against run time
   --results FOLDER  where runs go (results/hydraulic_jump_paper)
   --page FILE       the page (docs/hydraulic_jump_paper.md); beside it go that of standing jumps, ..._standing.md, that of the study, ..._study.md, and figures/hydraulic_jump
-  --quick           0.2 s in place of each run, to try the script: results/hydraulic_jump_quick, and the page in there
+  --quick           0.2 s instead of each run, to try the script: results/hydraulic_jump_quick, and the page in there
 
 A complete run that is younger than its deck and the program is taken over. One that was stopped (Ctrl-C) or killed goes on from its
 restart file. A run that fails is reported, the others go on. The pages show all runs that are complete in the folder; a call that runs
@@ -35,7 +35,7 @@ from case_runs import Case, Program, carry_out, interruptible, named, read_optio
 HERE = pathlib.Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
 SCENES = PROJECT / "keyword_decks" / "hydraulic_jump"
-FIRST_GUESS = {"windows": 50, "eddy viscosity": 300, "others": 140}  # ns per particle and step on one thread, until a run has told
+FIRST_GUESS = {"windows": 50, "eddy viscosity": 300, "others": 140}  # ns per particle and step on one thread, until a run has reported
 QUICK = {"endtim": 0.2, "settled": [0.05, 0.2], "segment": 0.15}
 
 

@@ -119,7 +119,7 @@ def evaluate_standing(run, program, scenes, threads):
 # ---- all
 
 def asked(run):
-    """What paper_runs.yaml asks of the evaluation: with other wishes it is made anew."""
+    """What paper_runs.yaml asks of the evaluation: with other requests it is made again."""
     return {"settled": list(run.settled), "segment": run.segment, "toe": run.toe, "figures": run.figures, "scene": run.scene.name, "case": run.case}
 
 

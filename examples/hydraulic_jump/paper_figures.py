@@ -239,7 +239,7 @@ def of_cases(runs, page_folder, project):
 
 
 def of_standing(runs, page_folder, project):
-    """The same of jumps that stand still."""
+    """The same of standing jumps."""
     folder = figure_folder(page_folder)
     shown = []
     for run, found in runs:

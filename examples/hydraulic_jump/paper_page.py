@@ -1,4 +1,4 @@
-"""Writes the pages, one of the paper's cases and one of jumps that stand still: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
+"""Writes the pages, one of the paper's cases and one of standing jumps: tables from what `paper_evaluate` gathered, figures from what `courant post` drew."""
 import paper_figures
 import paper_study
 from case_post import evaluated
@@ -20,8 +20,8 @@ def command(options):
 
 def top(title, options, program, project, shown):
     old = list(dict.fromkeys(run.variant for run, _ in shown if age(run.folder / EVALUATED) < program.age))
-    about = ("What the runs are and how they compare is discussed in [hydraulic_jump.md](hydraulic_jump.md); how each number is measured stands in [post.md](post.md) and in the recipes of "
-             "`keyword_decks/hydraulic_jump`. The paper's numbers carry their place in it.")
+    about = ("What the runs are and how they compare is discussed in [hydraulic_jump.md](hydraulic_jump.md); the measurement of each number is described in [post.md](post.md) and in the recipes of "
+             "`keyword_decks/hydraulic_jump`. The paper's numbers are cited by table, figure or equation.")
     return heading(title, command(options), about, 0.2 if options.quick else None, program, project, old)
 
 
@@ -146,7 +146,7 @@ def failure(run):
 
 
 def beside(page, ending):
-    """The page of jumps that stand still or of the study, beside that of the paper's cases."""
+    """The page of standing jumps or of the study, beside that of the paper's cases."""
     return page.with_name(page.stem.removesuffix("_paper") + ending + page.suffix)
 
 

@@ -143,7 +143,7 @@ def can_go_on(run, program):
 class Clock:
     """Estimates: particles x steps x ns per particle and step, the last one from runs of the kind that are done.
 
-    first_guess: ns by kind on one thread, until a run has told."""
+    first_guess: ns by kind on one thread, until a run has reported."""
 
     def __init__(self, runs, threads, first_guess):
         self.threads, self.first_guess, self.rates, self.ratios = threads, first_guess, {kind: [] for kind in first_guess}, []
@@ -281,7 +281,7 @@ def interruptible():
 
 
 def read_options(usage, project, name, groups=()):
-    """Options that all scripts have, and a flag for each of `groups`; results and page are called by `name` unless they are told."""
+    """Options that all scripts have, and a flag for each of `groups`; results and page are called by `name` unless they are reported."""
     parser = argparse.ArgumentParser(usage=usage, add_help=False)
     parser.add_argument("--courant", required=True)
     parser.add_argument("--jobs", type=int, default=1)

@@ -59,7 +59,7 @@ def revision(project):
 
 def heading(title, command, about, cut, program, project, old):
     """Top of a page: how it was made, and what it is about; a trial is told where `cut` [s] is not None, as are runs of an earlier build."""
-    version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.strip() or "courant"
+    version = subprocess.run([program.courant, "--version"], capture_output=True, text=True).stdout.partition("\n")[0] or "courant"
     text = f"# {title}\n\nWritten by `{command}` on {time.strftime('%Y-%m-%d')}; do not edit, run it again. {version}{revision(project)}, on {machine()}. {about}\n"
     if cut is not None:
         text += f"\n**A quick trial: every run was cut to {cut:g} s. These numbers mean nothing.**\n"

@@ -43,7 +43,7 @@ def find_screen():
     """Ends the script in words, or starts it again on a virtual screen, where this ParaView can draw on an X server only, and none answers: it would abort.
 
     Debian's is of this kind (--force-offscreen-rendering only hides its window); others bring EGL or OSMesa. The connection is left open: Xvfb without
-    -noreset starts anew when its last client leaves, and turns away ParaView, which looks at what the server can and then comes a second time.
+    -noreset starts again when its last client leaves, and turns away ParaView, which looks at what the server can and then comes a second time.
     """
     if vtkRenderWindow().GetClassName() != "vtkXOpenGLRenderWindow":
         return

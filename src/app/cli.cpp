@@ -17,6 +17,7 @@
 #include "app/python_program.hpp"
 #include "app/run_deck.hpp"
 #include "app/terminal.hpp"
+#include "base/version.hpp"
 #include "keyword/help/keyword_state.hpp"
 #include "keyword/read/cases.hpp"
 #include "keyword/registry.hpp"
@@ -267,10 +268,10 @@ std::vector<std::string> translate_habits(int argc, char** argv) {
 
 int command_line(int argc, char** argv) {
   CLI::App app{"Courant: explicit multiphysics solver for LS-DYNA-style keyword decks", "courant"};
-  app.set_version_flag("--version", std::string("courant ") + COURANT_VERSION);
+  app.set_version_flag("--version", std::string("courant " COURANT_VERSION "\n" COURANT_BUILD));
   app.require_subcommand(1);
   app.footer(
-      "\n`courant check DECK.k` tells what is made of a deck, `courant run DECK.k -o DIR` computes it,\n"
+      "\n`courant check DECK.k` reports on a deck, `courant run DECK.k -o DIR` computes it,\n"
       "`courant help run` has the options of a call. Exit codes: 0 done, 1 the input is wrong, 2 the run\n"
       "ended in error or its results cannot be trusted, 3 anything else.");
   Call call;
@@ -359,7 +360,7 @@ int command_line(int argc, char** argv) {
   verify->add_option("--only", python.only, "CASE[,CASE...]: these cases alone")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verify->add_option("--compare", python.compare, "results.csv of an earlier call: tell what got worse");
+  verify->add_option("--compare", python.compare, "results.csv of an earlier call: report what got worse");
   verify->add_option("--page", python.page,
                      "also write a Markdown page with its charts in a folder beside it");
   verify->add_flag("--fresh", python.fresh, "take over no runs of an earlier call");

@@ -48,7 +48,7 @@ std::string compiled_against_others(const std::filesystem::path& file) {
   return bytes.find(begin) == std::string::npos
              ? "does not say which headers it was compiled against: it lacks #include "
                "\"extension/compiled_against.hpp\""
-             : "was compiled against the headers of another Courant: compile it anew against those of this "
+             : "was compiled against the headers of another Courant: compile it again against those of this "
                "one";
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/nearest_word.hpp"
+#include "base/version.hpp"
 #include "output/file.hpp"
 
 namespace courant {

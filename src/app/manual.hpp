@@ -1,6 +1,6 @@
 #pragma once
 // What is made of the program's own description of its calls: pages of the manual, completion for bash, and
-// hints where an option is mistyped. So none of them can tell of options that are not there.
+// hints where an option is mistyped. So none of them can report options that are not there.
 #include <string>
 #include <vector>
 

@@ -5,7 +5,7 @@
 
 namespace courant {
 
-/// A place in an input file; line and column count from 1, 0 means "not known".
+/// A position in an input file; line and column count from 1, 0 means "not known".
 struct Location {
   std::string file;
   int line = 0;
@@ -28,11 +28,11 @@ struct Diagnostic {
 };
 
 /// Collects every message about the input, so that all faults of a deck are reported at once. The library
-/// never prints. Input of any kind may stand in a message, so control characters are shown as '?' and what is
+/// never prints. Input of any kind may be in a message, so control characters are shown as '?' and what is
 /// too long to read is cut.
 class Diagnostics {
  public:
-  /// More warnings than these are counted, but not kept: a note in their place says how many.
+  /// More warnings than these are counted, but not kept: a note instead says how many.
   static constexpr int max_warnings = 100;
   static constexpr std::size_t longest_text = 500;  ///< of a message or a hint, in bytes
 
@@ -41,7 +41,7 @@ class Diagnostics {
   void note(Location where, std::string message, std::string hint = {});
   void add(Diagnostic diagnostic);
 
-  /// Adds words to the message with this place in all().
+  /// Adds words to the message with this position in all().
   void amend(std::size_t index, const std::string& text) { all_[index].message += text; }
 
   const std::vector<Diagnostic>& all() const { return all_; }

@@ -38,7 +38,7 @@ struct Number {
 
 /// The names that an expression may use.
 struct ExpressionNames {
-  /// The value of a name, written without &. Nothing if there is none; `reason` may then tell why.
+  /// The value of a name, written without &. Nothing if there is none; `reason` may then state why.
   std::function<std::optional<Number>(std::string_view name, std::string& reason)> find{};
   std::function<std::vector<std::string>()> all{};  ///< for the message about an unknown name
 };

@@ -43,7 +43,7 @@ Calculated integer_power(Id base, Id exponent) {
 
 using Arguments = const std::vector<Number>&;
 
-/// The function of one real that stands in the template's argument.
+/// The function of one real that is in the template's argument.
 template <Real (*f)(Real)>
 Calculated real_function(Arguments a) {
   return real_result(f(a[0].value()));

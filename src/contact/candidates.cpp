@@ -1,4 +1,4 @@
-// Which particles have walls near them, and which walls. Done anew when particles were sorted.
+// Which particles have walls near them, and which walls. Done again when particles were sorted.
 #include <cmath>
 #include <limits>
 

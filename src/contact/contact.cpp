@@ -142,7 +142,7 @@ void Contact::choose_shortcuts() {
   }
   const Real r = r_least_;
   if (!std::isfinite(r)) return;
-  // with room for walls that move away
+  // with space for walls that move away
   const Real round_off = 4 * std::numeric_limits<Real>::epsilon() * (largest + 100 * reach_);
   search_less_ = round_off < 0.01 * clear_margin * r && round_off < 1e-7 * size;
   if (search_less_ && round_off < 0.1 * depth_tolerance * r)

@@ -1,6 +1,6 @@
 #pragma once
 // Penalty contact of SPH particles with shells and exterior faces of solids, in 3D and (walls extruded in z)
-// in 2D. See docs/theory.md.
+// in 2D. See docs/theory_contact.md.
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -27,7 +27,8 @@
 namespace courant {
 
 struct ContactOptions {
-  bool skip_inactive = true;  ///< ICONT 1. Particles outside the box move with constant velocity either way
+  bool skip_inactive =
+      true;  ///< ICONT 1. Particles outside the box move with constant velocity in either case
   bool thickness_from_volume =
       false;  ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
   /// Bulk modulus of the law of strength of a part; 0: none, or one that leaves pressure to an equation of
@@ -54,7 +55,7 @@ struct ContactLaw : FrictionLaw {
 };
 
 /// The interface at work. A particle with distance d < r to the walls is pushed by k (r - d) along the
-/// shortest way out; where several walls meet, to the nearest place that keeps distance r from all (see
+/// shortest path out; where several walls meet, to the nearest position that keeps distance r from all (see
 /// push_out.hpp). Each particle has a last admissible position: its own place, unless its path went through a
 /// mid-surface. It is then pulled back to the side of that position, which leaves it around a free edge only,
 /// never through a wall. What outlives a search of neighbours is in particle fields, so sorting keeps it.

@@ -3,8 +3,8 @@
 
 namespace courant {
 
-/// Gives every contact of the deck an id of its own: without one it has its place among them, with that of an
-/// earlier one, and a warning, the next that is free.
+/// Gives every contact of the deck an id of its own: without one it has its position among them, with that of
+/// an earlier one, and a warning, the next that is free.
 void number_contacts(Deck& deck, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -4,7 +4,7 @@
 
 namespace courant {
 
-// Lists are made anew where an element was deleted in this step.
+// Lists are made again where an element was deleted in this step.
 void Contact::leave_deleted(World& world, const Clock& clock) {
   if (!eroded_) return;
   const auto deleted = world.counters.find("deleted_elements");

@@ -44,8 +44,8 @@ Vec at_corner(const Facet& f, int corner, const OfNode& of_node) {
 
 /// Facets of the given segments with their present shape. Flat convex quads stay whole, others become two
 /// triangles; those of which `deforms` holds for a node become four around their middle, with forces on nodes
-/// that are those of the places of the facets, however the quad warps. Only geometry, node, segment and moves
-/// are filled.
+/// that are those of the positions of the facets, however the quad warps. Only geometry, node, segment and
+/// moves are filled.
 std::vector<Facet> make_facets(
     const World& world, const std::vector<Index>& segments,
     const std::function<bool(Index node)>& deforms = [](Index) { return false; });
@@ -74,7 +74,7 @@ Vec nearest_on_rim(const Facet& f, const Vec& y);
 
 /// True if the point that goes from `from` to `to` while the corners go from `before` to f.x passes through
 /// the facet. `side` is the side of `from`; it decides where `from` is in the plane but for rounding.
-/// `fraction` (0 to 1) tells when.
+/// `fraction` (0 to 1) states when.
 bool passes_through(const Facet& f, const Corners& before, int side, const Vec& from, const Vec& to,
                     Real& fraction);
 

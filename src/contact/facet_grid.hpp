@@ -1,5 +1,5 @@
 #pragma once
-// Which facets are near a point: each facet stands in all cells that it reaches, so one cell answers.
+// Which facets are near a point: each facet is in all cells that it reaches, so one cell answers.
 #include <span>
 #include <vector>
 

@@ -39,7 +39,7 @@ struct Contact::Supports {
   FreeAxes particles, nodes;
 
   explicit Supports(const World& world) : particles(world.particles.fields), nodes(world.nodes.fields) {}
-  /// The largest part of n^2 along which a corner of a facet can give way. [-]
+  /// The largest part of n^2 along which a corner of a facet can yield. [-]
   Real free_share(const Facet& f, const Vec& n) const {
     Real out = 0;
     for (int e = 0; e < node_count(f); ++e) out = std::max(out, nodes.part_of(n, f.node[e]).squaredNorm());
@@ -56,7 +56,7 @@ void Contact::look_further(const World& world) {
   const Real wanted =
       r_most_ + 1.1 * (std::min(soft_dt_ * fastest, h) + soft_dt_ * wall_speed_) + options_.reach_margin;
   Real reach = 1.5 * r_most_ + options_.reach_margin;
-  while (hold_ && reach < wanted) reach *= 1.5;  // in leaps, so that the grid is seldom made anew
+  while (hold_ && reach < wanted) reach *= 1.5;  // in leaps, so that the grid is seldom made again
   if (reach == reach_ && moving_.empty()) return;
   reach_ = reach;
   grid_.build(facets_, reach_);
@@ -170,7 +170,7 @@ Vec Contact::in_plane(Vec v) const {
   return v;
 }
 
-// How far from the plane of a face of a body a particle stands at the end of the coming step, on that side.
+// How far from the plane of a face of a body a particle is at the end of the coming step, on that side.
 // The face turns on the way, so a particle that slides along it comes nearer by more than the velocities
 // along n say. [L]
 Real Contact::gap_at_end(const World& world, const Clock& clock, Index i, const Facet& f, Real side) const {

@@ -32,7 +32,8 @@ struct Pushes {
 };
 
 /// Finds shares lambda >= 0 with sum_j G_ij lambda_j >= depth_i (equal where lambda_i > 0), G_ij = n_i.n_j,
-/// and returns the displacement u = sum lambda_i n_i [L]. That is the shortest way out of all walls: u = P(x)
+/// and returns the displacement u = sum lambda_i n_i [L]. That is the shortest path out of all walls: u =
+/// P(x)
 /// - x with P the projection on the allowed region, so k u is the gradient of k |u|^2 / 2. Walls that say the
 /// same thing count once, perpendicular walls act fully, and the stiffness never exceeds k. G_ij is kept
 /// above -0.9 so that a gap narrower than the particle stays solvable.

@@ -31,7 +31,7 @@ void Contact::find_incidence(const World& world) {
   });
 }
 
-// Blocks, and with them touches, stand in the order of particles.
+// Blocks, and with them touches, are in the order of particles.
 void Contact::gather_reactions() {
   note_access(reactions_resource_);
   Reactions& r = reactions_;

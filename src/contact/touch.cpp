@@ -89,7 +89,7 @@ void Contact::find_pushes(World& world, const Clock& clock, Block& b, Slot& slot
   learn(there.x);
 }
 
-// Walls that stand between the admissible position and where the particle is (after each wall found: where it
+// Walls that are between the admissible position and where the particle is (after each wall found: where it
 // would be pushed to). Returns whether there are any.
 bool Contact::pull_back(Near& near, const Vec& admissible, Pushes& pushes, Vec& u) const {
   while (pushes.count < Pushes::capacity) {
@@ -202,8 +202,8 @@ Vec Contact::wall_velocity(const World& world, const Facet& f, const Vec& q) con
   return v;
 }
 
-// Where several walls push, k |u|^2/2 is the potential of their forces, u the way out, and the share of a
-// wall is what it grows by as the wall moves on below the place that u leads to, not below the particle.
+// Where several walls push, k |u|^2/2 is the potential of their forces, u the path out, and the share of a
+// wall is what it grows by as the wall moves on below the position that u leads to, not below the particle.
 // There the wall takes its force; else walls that fold around particles would do work on them that nobody
 // pays.
 void Contact::forces_of(World& world, const Clock& clock, Block& b, const Slot& slot, const Pushes& pushes) {

@@ -90,7 +90,7 @@ class D3plotModel : public Pass {
   };
   void find_sources(const World& world);
   void find_springs(const World& world);
-  /// Where the particles of the mesh are in the world, which sorts them anew now and then; -1 none.
+  /// Where the particles of the mesh are in the world, which sorts them again now and then; -1 none.
   std::vector<Index> find_particles(const World& world) const;
   std::size_t global_words(const World& world) const;
   void put_globals(const World& world, Words& out) const;

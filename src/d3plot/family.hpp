@@ -14,7 +14,7 @@ inline constexpr float d3plot_end = -999999.0F;
 /// its time replaces at last: whenever the program is killed, a reader finds whole states alone.
 class D3plotFamily {
  public:
-  /// most: bytes of a file of states, if it has room for more than one.
+  /// most: bytes of a file of states, if it has space for more than one.
   D3plotFamily(std::filesystem::path dir, int bits, std::size_t state_bytes, std::size_t most);
 
   /// The model's file, and no states: those of an earlier run are removed. Throws OutputError.

@@ -1,5 +1,5 @@
 #pragma once
-// What elements tell of themselves for histories, when somebody asks.
+// What elements tell of themselves for histories, on request.
 #include <array>
 #include <vector>
 

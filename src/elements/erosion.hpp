@@ -38,7 +38,7 @@ struct FailureRules {
   int law_points = 0;  ///< how many points the law must take away, of layers that differ; 0: all
   StrengthLaw::LeastStep least_step;  ///< of the law: an element with a smaller one goes
   std::map<Id, Real> deaths{};        ///< *DEFINE_ELEMENT_DEATH: by element [T]
-  bool distorted = false;             ///< shells that turn inwards; who knows their places tells
+  bool distorted = false;             ///< shells that turn inwards; who knows their positions tells
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
   bool of_points() const;  ///< any but `small_step` and volume

@@ -25,7 +25,7 @@ struct GroupNodes {
   /// The same of what they left for their nodes by block. `place_node`: as nodes_of_places gives it.
   void assemble(const Field<Real>& of_blocks, const std::vector<Index>& place_node, Real factor,
                 NodalVector& sums, std::size_t first) const;
-  /// Of each place of BlockSums the node, numbered as here.
+  /// Of each position of BlockSums the node, numbered as here.
   std::vector<Index> nodes_of_places(const BlockSums& sums) const;
 
  private:

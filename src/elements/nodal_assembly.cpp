@@ -13,10 +13,10 @@ namespace courant {
 
 namespace {
 
-/// Elements write forces of their corners, or sums of blocks of them, to places of their own; nobody adds to
-/// a node but the thread that has its block. In meshes whose nodes are numbered as bricks usually are, a node
-/// is corner c of one element at most: a table tells which, for each corner, and neighbouring nodes read
-/// neighbouring numbers. The rest is a list.
+/// Elements write forces of their corners, or sums of blocks of them, to positions of their own; nobody adds
+/// to a node but the thread that has its block. In meshes whose nodes are numbered as bricks usually are, a
+/// node is corner c of one element at most: a table states which, for each corner, and neighbouring nodes
+/// read neighbouring numbers. The rest is a list.
 class NodalAssembly : public Force {
  public:
   explicit NodalAssembly(const World& world, Field<Real>& force, Field<Real>* moment)
@@ -62,7 +62,7 @@ class NodalAssembly : public Force {
   }
 
  private:
-  /// Forces and moments on places of a group.
+  /// Forces and moments on positions of a group.
   struct Source {
     const Field<Real>*force, *moment;  ///< null: no moments
     int component;                     ///< the first of three
@@ -72,7 +72,7 @@ class NodalAssembly : public Force {
     Index place;
     std::uint32_t source;
   };
-  /// Which place of a source a node has; -1: none, or it stands in the list.
+  /// Which place of a source a node has; -1: none, or it is in the list.
   struct Table {
     std::size_t source;
     Index begin, end;  ///< of nodes

@@ -21,7 +21,7 @@ std::vector<Real> stiffness_damping(const Deck& deck, const Model& model,
 
 /// The share of a stable step that is left by damping in proportion to stiffness: velocities lag half a step,
 /// so dt <= (2/w) (sqrt(1 + z^2) - z) with z = beta w/2 at the highest frequency w = 2/dt_0, that is beta
-/// over the step `undamped` = dt_0. [-]; docs/theory.md
+/// over the step `undamped` = dt_0. [-]; docs/theory_bodies.md
 Real damped_share(Real beta, Real undamped);
 
 /// Elements of a group: the stress sigma + beta C:D, with C of Hooke's law by the bulk and shear modulus at

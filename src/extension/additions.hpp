@@ -23,7 +23,7 @@ struct RegisterAddition {
   using FindNodes = std::function<std::vector<Index>(const Deck&, const Model&)>;
   /// `name`: for messages.
   /// `build` reads its cards and adds passes, fields or element groups to the world. Called when particles,
-  /// nodes, elements and bodies are there, before stages are made; particles stand in the order of the model.
+  /// nodes, elements and bodies are there, before stages are made; particles are in the order of the model.
   /// Faults go to the diagnostics.
   /// `nodes` of its elements, indices into Model::nodes: they are in World::nodes then, whether shells and
   /// solids use them or not; particles never are. Something has to give them mass. Empty: no nodes.

@@ -28,7 +28,7 @@
 
 namespace courant {
 
-/// Base of every card struct: where it stands in the deck. `title` is the text of a _TITLE, _ID or heading
+/// Base of every card struct: where it is in the deck. `title` is the text of a _TITLE, _ID or heading
 /// card.
 struct Entry {
   std::int32_t file = -1;     ///< index into Deck::files
@@ -41,14 +41,14 @@ struct Entry {
 enum class Honour {
   yes,          ///< the solver uses it
   no,           ///< physics that is not supported: error
-  output_only,  ///< an output wish that is not supported: warning
+  output_only,  ///< an output request that is not supported: warning
   ignored,      ///< no influence on results by nature (memory sizes, MPP hints): silently accepted
 };
 
 enum class Check { any, positive, not_negative, not_positive };
 
-/// A field that is, with the two fields behind it, a place or a direction in space; *INCLUDE_TRANSFORM moves
-/// it.
+/// A field that is, with the two fields behind it, a location or a direction in space; *INCLUDE_TRANSFORM
+/// moves it.
 enum class Spatial { none, point, direction };
 
 /// The few integers that a field may have; none: any. A constant, as all of a field is: tables whose fields
@@ -57,7 +57,7 @@ class Allowed {
  public:
   constexpr Allowed() = default;
   constexpr Allowed(std::initializer_list<int> values) : size_(values.size()) {
-    if (size_ > values_.size()) throw std::length_error("a field allows more values than there is room for");
+    if (size_ > values_.size()) throw std::length_error("a field allows more values than fit");
     std::copy(values.begin(), values.end(), values_.begin());
   }
   constexpr const int* begin() const { return values_.data(); }
@@ -126,11 +126,11 @@ struct CardOf {
   std::vector<FieldOf<T>> fields{};
   bool optional = false;  ///< may be missing at the end of the keyword
   bool repeat = false;    ///< repeats up to the next keyword, filling the vector members
-  /// Of a repeated one: it ends, too, where all required fields of card 1 stand on the line as integers > 0,
+  /// Of a repeated one: it ends, too, where all required fields of card 1 are on the line as integers > 0,
   /// with which the next entry begins.
   bool until_entry = false;
   /// Of a repeated one with one list of texts: lines are taken whole, with their blanks and commas, and with
-  /// values in the place of &names.
+  /// values instead of &names.
   bool whole_lines = false;
   /// Of a repeated one: it ends where this does not hold for the rows read so far, and the next card follows.
   bool (*more)(const T&) = nullptr;
@@ -152,7 +152,7 @@ struct KeywordOf {
   bool heading = false;  ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
-  /// The coordinate system in which places and directions are given, 0 global. With one *INCLUDE_TRANSFORM
+  /// The coordinate system in which locations and directions are given, 0 global. With one *INCLUDE_TRANSFORM
   /// leaves them alone: the system has moved.
   Id T::*local = nullptr;
   /// Counts once in a deck, with one set of cards: of several the last.
@@ -162,7 +162,7 @@ struct KeywordOf {
   /// counted by `courant check`, and the deck is refused.
   std::string lacking{};
   std::vector<CardOf<T>> cards{};
-  /// What the table cannot tell of a change of units or of a motion: done after the fields' own rules. They
+  /// What the table cannot report a change of units or of a motion: done after the fields' own rules. They
   /// return why it cannot be done, else nothing.
   std::string (*convert)(T&, const Conversion&) = nullptr;
   std::string (*move)(T&, const Affine&) = nullptr;

@@ -53,8 +53,8 @@ void step_rows(DataLines& data, std::size_t rows) {
   if (!ahead.done()) data = ahead;
 }
 
-/// Reads the entry's cards again, to find where a field stands: only messages need it, so no place is kept
-/// with the data. `text`: what stands there, unless it is a list.
+/// Reads the entry's cards again, to find where a field stands: only messages need it, so no location is kept
+/// with the data. `text`: what is there, unless it is a list.
 Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, Deck::Repeat repeat,
                 const SourceText& source, Location line, std::string& text) {
   const auto first = static_cast<std::size_t>(entry.line - 1);
@@ -155,7 +155,7 @@ std::string Deck::origin(const std::string& text) const {
   const DeckParameter* found = nullptr;
   for (const DeckParameter& parameter : parameters) {
     if (upper_case(parameter.name) != name) continue;
-    if (found) return {};  // which of several local ones cannot be told any more
+    if (found) return {};  // which of several local ones cannot be reported any more
     found = &parameter;
   }
   if (!found) return {};

@@ -83,7 +83,7 @@ class Deck {
   }
 
   Location where(const Entry& entry) const;  ///< first data line
-  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` stands in
+  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` is in
   /// it or below; at the field if it stands nowhere, as behind a parameter.
   struct Repeat {
     std::size_t row = 0;
@@ -111,7 +111,7 @@ class Deck {
   std::string first_name_of(IdSpace space, Id id) const;
   std::string place(const Entry& entry) const;  ///< "deck.k:12"
 
-  /// A place in one of the files, with the chain of files that include it.
+  /// A location in one of the files, with the chain of files that include it.
   Location location(std::int32_t file, int line, int column) const;
 
   std::string title;

@@ -27,7 +27,7 @@ const RegisterKeyword<DeckLevel> comment_keyword{
 const RegisterKeyword<DeckLevel> case_keyword{
     {.names = {"CASE", "CASE_BEGIN", "CASE_END"},
      .purpose = "several runs of one deck, one after the other, each in a folder of its own in that of the "
-                "results, named JOBID or CASE and the id. What stands between *CASE_BEGIN_n and *CASE_END_n "
+                "results, named JOBID or CASE and the id. What is between *CASE_BEGIN_n and *CASE_END_n "
                 "counts in the cases that name n as SCID; within blocks of several n, in those that name one "
                 "of them. Without *CASE each n is a case. `courant run --case ID` computes that one alone",
      .cards = {{.fields = {{"CASEID", &DeckLevel::text, "-", "id"},
@@ -40,7 +40,7 @@ const RegisterKeyword<DeckLevel> parameter_keyword{
      .purpose = "names for values, used as &name or -&name in any field; up to four pairs per line. Names do "
                 "not distinguish upper and lower case. A parameter is known below its definition, in all "
                 "files; with _LOCAL in this file and those that it includes. _MUTABLE: later definitions may "
-                "change it. Options may stand together, in any order",
+                "change it. Options may be combined in any order",
      .cards = {
          {.fields = {{"PRMR", &DeckLevel::text, "-", "type letter (R real, I integer, C text) and name"},
                      {"VAL", &DeckLevel::text, "-",

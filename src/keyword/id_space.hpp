@@ -1,5 +1,5 @@
 #pragma once
-// What ids number. An id stands for one thing within its space: node 5 and part 5 have nothing to do with
+// What ids number. An id represents one thing within its space: node 5 and part 5 have nothing to do with
 // each other.
 #include <cstdint>
 

@@ -64,7 +64,7 @@ std::string converted_title(const Conversion& conversion, const std::string& tit
   return conversion.suffix.empty() ? out : out + "." + conversion.suffix;
 }
 
-/// A place or direction that begins with this field.
+/// A location or direction that begins with this field.
 void move_field(Entry& entry, const CardSpec& card, std::size_t f, const Affine& motion) {
   const Spatial spatial = card.fields[f].rules.spatial;
   if (spatial == Spatial::none || f + 2 >= card.fields.size()) return;

@@ -31,7 +31,7 @@ class KeywordSpec : public KeywordTable {
   explicit KeywordSpec(KeywordTable table) : KeywordTable(std::move(table)) {}
   virtual ~KeywordSpec() = default;
   virtual std::unique_ptr<EntrySink> sink(Deck& deck) const = 0;
-  /// All entries of the keyword with this place in the registry.
+  /// All entries of the keyword with this location in the registry.
   virtual void for_each(const Deck& deck, std::int32_t keyword,
                         const std::function<void(const Entry&)>& visit) const = 0;
   /// Drops the entries of this keyword under one of its names but the last.
@@ -47,8 +47,8 @@ class KeywordSpec : public KeywordTable {
   std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const;
   /// Shifts ids and changes units; returns why it cannot be done, else nothing.
   std::string convert(Entry& entry, const Conversion& conversion) const;
-  /// Moves the places and directions in the entries for which `motion_of` gives a motion. `refuse` hears why
-  /// an entry cannot be moved.
+  /// Moves the locations and directions in the entries for which `motion_of` gives a motion. `refuse` hears
+  /// why an entry cannot be moved.
   void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
             const std::function<void(const Entry&, const std::string&)>& refuse) const;
 
@@ -62,11 +62,11 @@ class KeywordSpec : public KeywordTable {
 
   IdSpace space_of(const Entry& entry, std::size_t card, std::size_t field) const;
   bool is_own_id(std::size_t card, std::size_t field) const;
-  /// Card and field of each member, once: where it stands in several cards, of which a set has one, the one
+  /// Card and field of each member, once: where it is in several cards, of which a set has one, the one
   /// that is there.
   void for_each_member(const Entry& entry,
                        const std::function<void(std::size_t card, std::size_t field)>& visit) const;
-  bool shares_members_ = false;  ///< some member stands in several cards
+  bool shares_members_ = false;  ///< some member is in several cards
 };
 
 /// Builds the entries of one keyword, one after the other, and stores them in a deck.

@@ -14,7 +14,7 @@ std::vector<std::shared_ptr<const KeywordSpec>>& mutable_registry() {
   return registry;
 }
 
-/// Takes one of _TITLE, _ID, _MPP and _COLLECT out of a name, the last that stands there; each only once.
+/// Takes one of _TITLE, _ID, _MPP and _COLLECT out of a name, the last that is there; each only once.
 bool take_option(std::string& name, KeywordMatch& options) {
   for (std::size_t end = name.size(); end != std::string::npos && end > 0;) {
     const std::size_t begin = name.rfind('_', end - 1);

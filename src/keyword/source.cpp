@@ -155,7 +155,7 @@ void split_card(std::string_view line, const CardSpec& card, CardFormat format, 
   slices.clear();
   const bool list = !card.fields.empty() && card.fields.back().takes_rest;
   const std::size_t total = last_column(card, format);
-  // what stands behind the last column is ignored, so a comma there does not make this a comma line
+  // what is behind the last column is ignored, so a comma there does not make this a comma line
   if (is_comma_line(line, total)) {
     split_commas(line, slices);
     if (!list && slices.size() > card.fields.size()) {

@@ -39,7 +39,7 @@ std::shared_ptr<SourceText> make_source(std::string text);
 std::string_view trimmed(std::string_view text);
 std::string upper_case(std::string_view text);
 
-/// A field as it stands in the deck, without blanks around it.
+/// A field as it is in the deck, without blanks around it.
 struct Slice {
   std::string_view text;
   int column = 1;  ///< of its first character (of the field, if that is blank), from 1

@@ -20,8 +20,8 @@ class BodyLoadPass : public Force, public EnergyTerm, public Refresh, public Res
         neighbours_(std::move(neighbours)),
         added_(shared_fields::added_mass.find(points.fields())),
         tied_(shared_fields::tied_mass.find(points.fields())) {
-    // heights count from the lowest point against gravity; where it begins at 0, from the mean of all places,
-    // which no order of points changes
+    // heights count from the lowest point against gravity; where it begins at 0, from the mean of all
+    // positions, which no order of points changes
     const Vec g = acceleration_.at(0).everywhere();
     Vec mean = Vec::Zero();
     Real count = 0;

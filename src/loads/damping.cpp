@@ -125,7 +125,7 @@ class DampingReader {
 };
 
 /// With d = D dt/2: v+ = ((1 - d) v- + f dt/m)/(1 + d), which damps at any step; so f becomes
-/// (f - D m v-)/(1 + d). The step is not known yet: the one before stands for it, what is taken from the
+/// (f - D m v-)/(1 + d). The step is not known yet: the one before represents it, what is taken from the
 /// energy is counted with the kick that is done, and no step may be so much longer that v+ turns round.
 /// Nothing acts on points that a prescribed motion drives, nor along axes that SPC hold: their velocity is
 /// given, and their reaction is that of the forces alone.

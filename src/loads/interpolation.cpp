@@ -112,7 +112,7 @@ class InterpolationForces : public Constraint {
 };
 
 /// The mean velocity and spin of the independent nodes over the step move the dependent one, which a motion
-/// of all as one keeps in its place exactly.
+/// of all as one keeps instead exactly.
 class ByMeans : public Carriage {
  public:
   explicit ByMeans(std::vector<Interpolation> all) : all_(std::move(all)) {}
@@ -197,7 +197,7 @@ class InterpolationBuilder {
                    "give MS1ST 1, or leave DT2MS of *CONTROL_TIMESTEP blank");
     if (beside_ties_)
       return error(card, "DNID", "it is not supported beside contacts that tie exactly",
-                   "use these contacts with _OFFSET, whose springs may stand beside it");
+                   "use these contacts with _OFFSET, whose springs are allowed with it");
     Interpolation out;
     const ModelNode* node = find(card, "DNID", card.dnid, out.node);
     if (!node || !check_dependent(card, *node, out)) return;
@@ -209,7 +209,8 @@ class InterpolationBuilder {
     for (const auto& [n, weight] : weights)
       if (weight > 0) out.of.push_back(n), out.weight.push_back(weight / sum);
     if (!spans(out))
-      return error(card, "INID", "the independent nodes lie on one line, and do not tell how the node turns",
+      return error(card, "INID",
+                   "the independent nodes lie on one line, and do not define how the node rotates",
                    "name three or more that span a plane");
     all_.push_back(std::move(out));
   }
@@ -298,7 +299,7 @@ class InterpolationBuilder {
     const auto* inertia = shared_fields::rotary_inertia.find(world_.nodes.fields);
     if (turning && inertia && (*inertia)[n] > 0) {
       error(card, "IDOF", fmt::format("node {} turns, and its rotation would count", id),
-            "give IDOF 123: only places of independent nodes count here");
+            "give IDOF 123: only positions of independent nodes count here");
       return false;
     }
     if (!(world_.nodes.m[n] > 0)) {

@@ -1,6 +1,6 @@
 #pragma once
 // Loads and constraints for all that moves: each is one file, written once for Points. `points`: particles
-// while they stand in the order of the model, or nodes.
+// while they are in the order of the model, or nodes.
 #include <array>
 #include <memory>
 #include <optional>
@@ -28,7 +28,7 @@ inline Index loaded_points(const Points& points, const World& world) {
 /// Of each point of the world, an index into Model::nodes.
 std::vector<Index> model_nodes(const Model& model, const World& world, const Points& points);
 
-/// m a of the body loads, and their energy. `neighbours`: of particles, who tells which of them come and go;
+/// m a of the body loads, and their energy. `neighbours`: of particles, who states which of them come and go;
 /// null for nodes.
 std::shared_ptr<Force> make_body_load(BodyAcceleration acceleration, Points points, World& world,
                                       std::shared_ptr<Neighbours> neighbours = nullptr);

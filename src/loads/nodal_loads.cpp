@@ -140,7 +140,7 @@ class NodalLoadReader {
         error(card, "CID",
               known ? fmt::format("system {} turns with nodes, which forces do not", card.cid)
                     : fmt::format("coordinate system {} does not exist", card.cid),
-              known ? "use a system that stands still" : "define it with *DEFINE_COORDINATE_SYSTEM");
+              known ? "use a fixed system" : "define it with *DEFINE_COORDINATE_SYSTEM");
         return false;
       }
       axes = system->second.axes;

@@ -73,7 +73,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
  private:
   Points points_;
   const Field<Index>* driven_;  ///< null: nothing is
-  std::vector<Index> at_;       ///< of each node of the world its place below; -1: none
+  std::vector<Index> at_;       ///< of each node of the world its position below; -1: none
   std::vector<Index> nodes_;
   std::vector<Matrix> damping_;
   std::vector<Vec> force_;  ///< of the dampers now [ML/T2]
@@ -110,7 +110,7 @@ class NonReflectingReader {
     const std::set<Index> nodes(corner.begin(), corner.end());
     const Id first = model_.nodes[static_cast<std::size_t>(corner[0])].id;
     if (!faces_.insert(nodes).second) {
-      error(card, fmt::format("the face of node {} stands here twice", first), "name each face once");
+      error(card, fmt::format("the face of node {} is given twice", first), "name each face once");
       return false;
     }
     const auto speeds = speeds_behind(nodes);

@@ -127,7 +127,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
     if (m.around < 0)
       return {m.direction, at_zero, m.kind == PrescribedMotion::Kind::acceleration ? 1.0 : 0.0};
     if (!(clock.dt > 0)) return {m.direction};
-    // the chord of the arc that leads to the place at the end of the step
+    // the chord of the arc that leads to the position at the end of the step
     const Matrix turn = Eigen::AngleAxisd(at_zero * clock.dt, Vec::Unit(m.around)).toRotationMatrix();
     const Matrix chord = (turn - Matrix::Identity()) / clock.dt;
     return {m.direction, 0, 0, chord.transpose() * m.direction, m.centre};

@@ -27,7 +27,7 @@ const RegisterKeyword<Segment> load_segment_keyword{load_segment_table()};
 const RegisterKeyword<LoadSegmentSet> load_segment_set_keyword{load_segment_set_table()};
 
 struct LoadShell : LoadShellFields {
-  bool is_set() const { return name == 1; }  ///< names stand in this order
+  bool is_set() const { return name == 1; }  ///< names are in this order
 };
 
 const RegisterKeyword<LoadShell> load_shell_keyword{load_shell_element_table()};
@@ -277,7 +277,7 @@ class PressureReader {
                     fmt::format("the face of node {} is {:.4g} ft/lb^(1/3) from charge {}, and the fits hold "
                                 "from {:g} to {:g}",
                                 id[0], charge->scaled(distance), card.bid, range.least, range.most),
-                    "check M, the place of the charge and UNIT, or leave the face out");
+                    "check M, the position of the charge and UNIT, or leave the face out");
     }
     face.blast = static_cast<Index>(blasts.size());
     blasts.push_back({static_cast<std::size_t>(charge - charges.begin()), *wave, card.scalep});

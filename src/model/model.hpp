@@ -67,7 +67,7 @@ struct ModelShell {
 };
 
 /// A hexahedron: nodes 1 to 4 run around the lower face, counter-clockwise seen from the upper one, 5 to 8
-/// stand above them; or what becomes of it where nodes stand several times: pentahedra, pyramids, tetrahedra.
+/// are above them; or what becomes of it where nodes stand several times: pentahedra, pyramids, tetrahedra.
 /// Or a tetrahedron with nodes 5 to 10 on its edges: of 1 and 2, 2 and 3, 3 and 1, 1 and 4, 2 and 4, 3 and 4.
 struct ModelSolid {
   Id id = 0;
@@ -211,7 +211,7 @@ struct FieldRequests {
   int compression = -1;         ///< 0 none, 1 zlib, 2 xz; -1 not given
   int level = -1;               ///< of the compression; -1 not given
   Real eps = -1;                ///< error of values, of the range of an array at that time; -1 not given
-  Real epsx = -1;               ///< error of places, of h; -1 not given
+  Real epsx = -1;               ///< error of positions, of h; -1 not given
   std::vector<Index> left_out;  ///< parts, sorted
   bool in_box = false;
   Box box;

@@ -1,5 +1,5 @@
 #pragma once
-// Checked writing of files, and the one place that opens what is written
+// Checked writing of files, and the one location that opens what is written
 // (tests/architecture/one_writer.py looks for others). A file carries its final name only once all of it is
 // on the disk.
 #include <cstdint>
@@ -30,7 +30,7 @@ class OutputError : public std::runtime_error {
 /// Makes the folder and its parents. Throws OutputError.
 void make_folder(const std::filesystem::path& dir);
 
-/// Why results cannot take the place of what is there under this name: a link, or no ordinary file; "" where
+/// Why results cannot replace what is there under this name: a link, or no ordinary file; "" where
 /// they can.
 std::string why_no_file(const std::filesystem::path& file);
 
@@ -85,7 +85,7 @@ class TextFile {
   /// Throws OutputError.
   void write(std::string_view text);
   std::uintmax_t size() const { return size_; }  ///< [bytes]
-  /// Takes off what stands behind the first `size` bytes. Throws OutputError.
+  /// Takes off what is behind the first `size` bytes. Throws OutputError.
   void cut(std::uintmax_t size);
 
  private:

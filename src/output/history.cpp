@@ -259,7 +259,7 @@ std::size_t History::bytes_buffered() const {
   return sizeof(double) * numbers;
 }
 
-// Each flush writes all rows anew: a larger file is left alone longer, as far as memory allows.
+// Each flush writes all rows again: a larger file is left alone longer, as far as memory allows.
 std::size_t History::enough_rows() const {
   std::size_t width = 0;
   for (const auto& [path, c] : columns_) width += static_cast<std::size_t>(c.components);
@@ -296,7 +296,7 @@ void History::flush() {
   for (auto& [path, c] : columns_) c.values.clear();
   rows_in_file_ += rows_;
   rows_ = 0;
-  // A large file takes long to write anew: not more than a hundredth of the time goes there.
+  // A large file takes long to write again: not more than a hundredth of the time goes there.
   const auto now = std::chrono::steady_clock::now();
   wait_ = std::max<std::chrono::steady_clock::duration>(longest_wait_, 100 * (now - last_flush_));
 }

@@ -38,7 +38,7 @@ class History {
   explicit History(std::filesystem::path file, std::size_t buffered_samples = 1024,
                    std::chrono::seconds longest_wait = std::chrono::seconds(10));
 
-  /// Goes on with the file that is there, behind its first `rows` rows; what stands behind them is taken off.
+  /// Goes on with the file that is there, behind its first `rows` rows; what is behind them is taken off.
   /// Returns how many rows it goes on from: less where the file has less. Throws OutputError.
   /// `gauge_rows`: the same of the groups of gauges, which have rows of their own.
   std::size_t resume(std::size_t rows, const std::map<std::string, std::int64_t>& gauge_rows = {});

@@ -3,7 +3,7 @@
 
 namespace courant {
 
-/// The line that stands behind the HDF5 bytes of history.h5, with their CRC-32. HDF5's own library crashes on
+/// The line that is behind the HDF5 bytes of history.h5, with their CRC-32. HDF5's own library crashes on
 /// damaged files, so nobody hands it bytes that are not those that were written; it passes over what stands
 /// behind its own.
 std::string history_checksum(const std::string& bytes);

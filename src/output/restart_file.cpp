@@ -9,6 +9,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/version.hpp"
 #include "output/file.hpp"
 #include "output/hdf5.hpp"
 
@@ -94,7 +95,7 @@ bool put(hid_t file, const std::string& path, const SavedArray& array) {
   Hdf5Handle space(H5Screate_simple(rank, size + first, nullptr), H5Sclose),
       options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
-  if (columns >= worth_it) {  // small ones take more room in pieces than as they are
+  if (columns >= worth_it) {  // small ones take more space in pieces than as they are
     H5Pset_chunk(options, rank, chunk + first);
     H5Pset_shuffle(options);
     H5Pset_deflate(options, 1);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/utf8.hpp"
+#include "base/version.hpp"
 
 namespace courant {
 namespace {

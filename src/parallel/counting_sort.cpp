@@ -30,7 +30,7 @@ void counting_sort(std::span<const Index> key, Index keys, std::vector<Index>& s
   start[keys] = n;
   on_threads(shares, [&](int t) {
     const Index low = first(t), high = first(t + 1);
-    Index* end = start.data();  // of those with key k, until all of them stand before it
+    Index* end = start.data();  // of those with key k, until all of them are before it
     Index sum = total[t];
     for (Index k = low; k < high; ++k) {
       sum += end[k];

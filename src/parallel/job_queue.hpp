@@ -22,8 +22,8 @@ class JobQueue {
   /// Waits for the jobs. What they throw is lost: call `wait` before.
   ~JobQueue();
 
-  /// Waits until there is room, then leaves the job to the queue. A job heavier than the capacity waits until
-  /// it is alone. Throws what an earlier job threw; then the new one is dropped.
+  /// Waits until there is space, then leaves the job to the queue. A job heavier than the capacity waits
+  /// until it is alone. Throws what an earlier job threw; then the new one is dropped.
   template <class Job>
   void submit(Job job, int weight = 1) {
     push({std::packaged_task<void()>([this, job = std::move(job)]() mutable {
@@ -54,7 +54,7 @@ class JobQueue {
   std::deque<Entry> jobs_;
   int load_ = 0;  // weight of the jobs waiting and running
   bool failed_ = false, ending_ = false;
-  std::future<void> failure_;  // of the job that failed, until it was told
+  std::future<void> failure_;  // of the job that failed, until it was reported
   double cpu_seconds_ = 0;
   bool succeeded_ = false;
   std::thread thread_;

@@ -11,14 +11,14 @@ namespace courant {
 
 namespace {
 
-constexpr int settling = 8;        // steps after a change: work is shared anew when neighbours are looked for
-constexpr int measured = 32;       // steps of a mean, so that some searches of neighbours are among them
-constexpr double quicker = 0.93;   // what a trial must come to
-constexpr double hopeless = 1.2;   // of the time that the best would have taken: a trial ends
-constexpr double disturbed = 1.5;  // of its own mean: something has changed
-constexpr double rarest = 400;     // pause, in lengths of a trial
-constexpr double used = 0.7;       // of the threads' time: less is spent by waiting
-constexpr int first_pause = 30;    // means, about a thousand steps
+constexpr int settling = 8;       // steps after a change: work is shared again when neighbours are looked for
+constexpr int measured = 32;      // steps of a mean, so that some searches of neighbours are among them
+constexpr double quicker = 0.93;  // what a trial must come to
+constexpr double hopeless = 1.2;  // of the time that the best would have taken: a trial ends
+constexpr double disturbed = 1.5;     // of its own mean: something has changed
+constexpr double rarest = 400;        // pause, in lengths of a trial
+constexpr double used = 0.7;          // of the threads' time: less is spent by waiting
+constexpr int first_pause = 30;       // means, about a thousand steps
 constexpr std::int64_t least = 1000;  // particles and elements for a second thread
 
 }  // namespace

@@ -31,7 +31,7 @@ void BoxGrid::for_cells(const Box& box, const Body& body) const {
 }
 
 // Cells are as large as a usual box; where a few boxes are so large that they would fill very many, larger.
-// Returns how often boxes stand in cells.
+// Returns how often boxes are in cells.
 std::size_t BoxGrid::choose_size(Real usual) {
   const std::size_t enough = 64 * boxes_.size() + 100000;
   for (size_ = usual;; size_ *= 2) {

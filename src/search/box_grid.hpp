@@ -1,5 +1,5 @@
 #pragma once
-// Boxes near a place, or near each other: a grid of cells in which each box stands wherever it reaches.
+// Boxes near a position, or near each other: a grid of cells in which each box stands wherever it reaches.
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -17,7 +17,7 @@ struct GhostPlane {
   enum class Kind { mirror, periodic } kind = Kind::mirror;
   Vec point = Vec::Zero();   ///< on the plane [L]
   Vec normal = Vec::Zero();  ///< into the material, of length 1
-  Real period = 0;           ///< periodic: the other plane stands at point + period normal [L]
+  Real period = 0;           ///< periodic: the other plane is at point + period normal [L]
 };
 
 /// Distance from the plane, into the material [L].
@@ -33,7 +33,7 @@ inline Real depth(const GhostPlane& plane, const Vec& x) {
 ParticleLoops::Range depth_range(const ParticleLoops& loops, const GhostPlane& plane, const Particles& p,
                                  Index begin, Index end);
 
-/// What loads give at a place, a time, to a part [L/T2]
+/// What loads give at a position, a time, to a part [L/T2]
 using Acceleration = std::function<Vec(const Vec& x, Real t, Index part)>;
 
 /// Neighbours that are no particles: they have no lists, and pair loops take them like any other. They are
@@ -79,12 +79,12 @@ class Ghosts : public Exchanger {
 class GhostParticles : public Ghosts {
  public:
   /// Planes must be perpendicular to each other, or parallel and farther apart than particles reach.
-  /// `of`: ghosts without a source, which have copies behind the planes in place of the particles.
+  /// `of`: ghosts without a source, which have copies behind the planes instead of the particles.
   explicit GhostParticles(std::vector<GhostPlane> planes, std::shared_ptr<const Ghosts> of = nullptr);
   std::string name() const override { return of_ ? "copies of " + of_->name() : "ghost particles"; }
 
   /// A pass that reflects at the end of each step what went through a mirror in it; null without mirrors.
-  /// `loads`: the acceleration of body loads [L/T2]. It pulled the whole way, towards the mirror and then
+  /// `loads`: the acceleration of body loads [L/T2]. It pulled the whole path, towards the mirror and then
   /// away from it, where it would have turned round: the speed across the mirror gives back what that was too
   /// much.
   std::shared_ptr<Relocation> make_mirrors(Acceleration loads) const;
@@ -103,7 +103,7 @@ class GhostParticles : public Ghosts {
   void exchange_all(World& world) override;
 
  private:
-  /// x -> A x + b for places, A v for vectors, A S A^T for tensors.
+  /// x -> A x + b for positions, A v for vectors, A S A^T for tensors.
   struct Motion {
     Matrix A = Matrix::Identity();
     Vec b = Vec::Zero();

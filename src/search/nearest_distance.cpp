@@ -98,7 +98,7 @@ class Lists {
       index_[at] = i;
     }
   }
-  Index index(Index at) const { return index_[at]; }  ///< of the point at a place in the lists
+  Index index(Index at) const { return index_[at]; }  ///< of the point at a position in the lists
 
   /// Points in the list of a point, on average over the points.
   Real crowd() const {
@@ -110,7 +110,7 @@ class Lists {
     return sum / static_cast<Real>(points_.size());
   }
 
-  /// Nearest distance to p, which stands at `self` in the lists, in ever wider shells of cubes until none
+  /// Nearest distance to p, which is at `self` in the lists, in ever wider shells of cubes until none
   /// nearer can come. -1 if more than `rings` shells would be needed.
   Real nearest(Index self) const {
     constexpr std::int64_t rings = 2;

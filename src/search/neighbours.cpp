@@ -163,7 +163,7 @@ void Neighbours::stop_for_leaps(const World& world, const Clock& clock) const {
     if (!(moved - 0.5 * skin_ > longest_leap * p.h[i]) || !std::isfinite(moved)) continue;
     throw RunError(
         fmt::format("particle {} of part {} moved {:.4g} smoothing lengths in the step to time {:.6g}, "
-                    "cycle {}: no pair and no wall on its way was seen",
+                    "cycle {}: no pair and no wall on its path was found",
                     p.id[i], world.part_id(i), moved / p.h[i], clock.t, clock.cycle),
         StopCause::leap);
   }

@@ -175,7 +175,7 @@ class ParticleBuilder {
       deck_.error(diagnostics_, *c, "SURFACE",
                   fmt::format("expected a number below {}, which is div r inside, got '{:g}'", settings_.dim,
                               c->surface),
-                  "1.5 in 2D and 2.5 in 3D tell a surface from the inside");
+                  "1.5 in 2D and 2.5 in 3D distinguish a surface from the inside");
   }
 
   void read_pair_geometry() {
@@ -272,7 +272,7 @@ class ParticleBuilder {
     for (const ModelSph& s : model_.sph) {
       const Conversion& c = deck_.files[static_cast<std::size_t>(s.card.file)].conversion;
       if (c.units.length == 1) continue;
-      if (deck_.keyword(s.card) != "*ELEMENT_SPH") return;  // those of inlets stand behind all of them
+      if (deck_.keyword(s.card) != "*ELEMENT_SPH") return;  // those of inlets are behind all of them
       deck_.error(diagnostics_, s.card, "MASS",
                   fmt::format("in 2D masses are per unit of depth, and the file has another unit of length "
                               "(FCTLEN {:g}), which leaves open what the depth is",
@@ -349,12 +349,12 @@ class ParticleBuilder {
       if (model_.sph[first].node == model_.sph[i].node)
         continue;  // the same one, or one node used twice: told already
       diagnostics_.error(deck_.where(model_.sph[i].card),
-                         fmt::format("{}: particle {} stands where particle {} is",
+                         fmt::format("{}: particle {} is at the position of particle {}",
                                      deck_.keyword(model_.sph[i].card), p.id[i], p.id[first]),
                          "remove one of the two, or move its node");
       if (++found < max_reports) continue;
       diagnostics_.note(deck_.where(model_.sph[i].card),
-                        fmt::format("only {} particles in one place with another are shown", max_reports));
+                        fmt::format("only {} particles at the position of another are shown", max_reports));
       return;  // each search runs over all particles
     }
   }
@@ -452,7 +452,7 @@ std::vector<PassNote> add_sph_passes(World& world, const SphSettings& s,
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
     world.passes.add(make_bulk_viscosity(s, world));
   else
-    left_out.push_back({"bulk viscosity", riemann ? "*COURANT_RIEMANN takes the place of viscosity"
+    left_out.push_back({"bulk viscosity", riemann ? "*COURANT_RIEMANN replaces viscosity"
                                                   : "IAVIS 0: Monaghan viscosity between pairs"});
   if (s.mixing_length.most > 0)
     world.passes.add(make_eddy_viscosity(s, world));

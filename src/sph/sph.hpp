@@ -66,7 +66,7 @@ struct ShiftRules {
   Real strength = 0;     ///< A; 0: none
   Real pairing = 0;      ///< R
   Real surface = 0;      ///< div r of surfaces
-  bool correct = false;  ///< the velocity changes to that of the new place
+  bool correct = false;  ///< the velocity changes to that of the new position
 };
 
 /// Shells that support particles, and their skin friction; none where `segments` is empty.
@@ -158,8 +158,8 @@ SphSettings build_particles(const Deck& deck, const Model& model,
 KernelChoice read_kernel(const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 /// The planes of BOUNDARY_SPH_SYMMETRY_PLANE and _PERIODIC. `reach`: how far a particle looks [L]. Particles
-/// on the second of two periodic planes, which is the same place as the first, are moved to that. Call while
-/// particles stand in the order of the model.
+/// on the second of two periodic planes, which is the same position as the first, are moved to that. Call
+/// while particles are in the order of the model.
 std::vector<GhostPlane> build_ghost_planes(const Deck& deck, const Model& model, const SphSettings& settings,
                                            Real reach, World& world, Diagnostics& diagnostics);
 
@@ -191,7 +191,7 @@ void read_riemann(const Deck&, const Model&, const std::function<SphMaterial(Ind
 void add_riemann(const SphSettings&, World&, std::shared_ptr<Neighbours>, std::shared_ptr<PairVolumes>);
 /// Adds to the rates what density diffusion, or a Riemann flux, gave in the last forces.
 void add_density_diffusion(const SphSettings&, World&);
-/// Adds to the rates what brings the density back to what the places of particles say.
+/// Adds to the rates what brings the density back to what the positions of particles say.
 void add_volume_control(const SphSettings&, World&, std::shared_ptr<Neighbours>,
                         std::shared_ptr<PairVolumes>);
 /// Reads *COURANT_WALL_SUPPORT into the settings. Call when segments and bodies are built.

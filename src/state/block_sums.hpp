@@ -22,12 +22,12 @@ class BlockSums {
   /// second, ...
   void set(Field<Real>& sums, Index begin, Index count, const Real (*of_corners)[block_size]) const;
 
-  const std::vector<Index>& nodes() const { return nodes_; }  ///< of each place
+  const std::vector<Index>& nodes() const { return nodes_; }  ///< of each position
   Field<Real> force, moment;                                  ///< on nodes [ML/T2], [ML2/T2]
 
  private:
   std::vector<Index> first_;                       ///< place of each block, and the end
-  std::vector<Index> nodes_;                       ///< of each place
+  std::vector<Index> nodes_;                       ///< of each position
   std::vector<std::vector<std::uint16_t>> place_;  ///< of each element in its block, by corner
 };
 

@@ -147,7 +147,7 @@ struct ElementGroup {
     if (corners() == 6) return {0, 1, 2, 3, 4, 4, 5, 5};
     return {0, 1, 2, 2, 3, 3, 3, 3};
   }
-  /// Whether the node of a corner stands at no corner before it.
+  /// Whether the node of a corner is at no corner before it.
   bool is_first(Index e, int corner) const {
     for (int b = 0; b < corner; ++b)
       if (node.data(b)[e] == node.data(corner)[e]) return false;

@@ -44,7 +44,7 @@ class FieldBase : public Resource {
   virtual void gather(int component, const Index* from, Index begin, Index end, FieldBase& spare) const = 0;
   /// Copies entities [begin, end) of the spare to a component.
   virtual void take(int component, Index begin, Index end, const FieldBase& spare) = 0;
-  /// The spare becomes the component, and the other way round.
+  /// The spare becomes the component, and reversed.
   virtual void swap(int component, FieldBase& spare) = 0;
   virtual std::size_t bytes_per_entity() const = 0;
 
@@ -175,7 +175,7 @@ class FieldSet {
       if (f->info().exchange) f->make_room(size_, count);
   }
   /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread
-  /// sorts, and then has in its cache, the entities that it works on afterwards. Arrays change their place
+  /// sorts, and then has in its cache, the entities that it works on afterwards. Arrays change their position
   /// in memory.
   void permute(std::span<const Index> old_of_new) {
     const Index n = static_cast<Index>(old_of_new.size());

@@ -91,9 +91,9 @@ struct TimeLimit : virtual Pass {
     std::string who;  ///< what set it: "sph particle 17 of part 1"
   };
   virtual Limit limit(const World& world, const Clock& clock) = 0;
-  /// Whether what it limits would be pumped by steps that go to and fro: elements, springs, contact of nodes.
-  /// Not fluids, turning bodies and joints, whose limits lie far below what would make them unstable, and
-  /// change all the time.
+  /// Whether what it limits would be pumped by steps that go back and forth: elements, springs, contact of
+  /// nodes. Not fluids, turning bodies and joints, whose limits lie far below what would make them unstable,
+  /// and change all the time.
   virtual bool rings() const { return true; }
 };
 /// Keeps what depends on the order or the neighbourhood of particles. Called after particles were sorted and
@@ -111,7 +111,7 @@ struct EnergyTerm : virtual Pass {
 };
 
 /// The passes of a world. The order of adding counts only where accesses leave it open: among passes of one
-/// phase that add to the same field, and for the ledger, the limits and what is told of a rebuild.
+/// phase that add to the same field, and for the ledger, the limits and what is reported a rebuild.
 class PassList {
  public:
   /// Returns the pass. Throws std::logic_error where it is in the list already.

@@ -1,5 +1,5 @@
 #pragma once
-// What passes can tell of themselves for the histories, when somebody asks.
+// What passes can report themselves for the histories, on request.
 #include <functional>
 #include <vector>
 
@@ -111,7 +111,7 @@ struct RigidWallReporter {
   virtual RigidWallForce report_wall() const = 0;
 };
 
-/// What a joint does to its second body at t^n, at its place there, in global axes.
+/// What a joint does to its second body at t^n, at its position there, in global axes.
 struct JointForce {
   Id id = 0;
   std::string title;

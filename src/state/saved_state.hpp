@@ -49,7 +49,7 @@ class Archive {
   static Archive loader(SavedState& state) { return Archive(state, true); }
   bool loading() const { return loading_; }
 
-  /// From here on names stand below `group`, until the object that this returns is gone.
+  /// From here on names are below `group`, until the object that this returns is gone.
   class Group {
    public:
     Group(Archive& archive, const std::string& group) : archive_(archive), before_(archive.prefix_) {
@@ -107,7 +107,7 @@ class Archive {
   /// Numbers saved under that name in all rows, while loading.
   std::size_t count(const std::string& name) const;
 
-  /// Throws RestartError if the state holds something that nobody asked for: it is from a run with other
+  /// Throws RestartError if the state holds something that is not requested: it is from a run with other
   /// passes.
   void stop_for_leftovers() const;
   [[noreturn]] void stop(const std::string& name, const std::string& why) const;

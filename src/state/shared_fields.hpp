@@ -1,6 +1,6 @@
 #pragma once
 // Fields by which folders meet that never include each other: each is described here alone. One of them adds
-// the field, and others heed it where it is there.
+// the field, and others respect it where it is there.
 #include "state/field.hpp"
 
 namespace courant {

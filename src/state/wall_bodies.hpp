@@ -10,16 +10,16 @@ namespace courant {
 
 struct WallBodies {
   std::vector<Index> of_node;  ///< body that a node of the world belongs to, -1: none; empty: no bodies
-  /// By how much the velocity of place q of a body changes along n for an impulse along n there: 0 where it
-  /// is held or driven. [1/M]
+  /// By how much the velocity of position q of a body changes along n for an impulse along n there: 0 where
+  /// it is held or driven. [1/M]
   std::function<Real(Index body, const Vec& q, const Vec& n)> give;
-  /// Velocity of place q by an impulse and its moment about q, as if no joint held the body; at any time.
+  /// Velocity of position q by an impulse and its moment about q, as if no joint held the body; at any time.
   /// [L/T]
   std::function<Vec(Index body, const Vec& q, const Vec& impulse, const Vec& moment)> answer_alone;
   Real give_alone(Index body, const Vec& q, const Vec& n) const {
     return n.dot(answer_alone(body, q, n, Vec::Zero()));
   }
-  /// Change of the velocity of place q over the coming step, by all forces and drives known so far. [L/T]
+  /// Change of the velocity of position q over the coming step, by all forces and drives known so far. [L/T]
   std::function<Vec(Index body, const Vec& q, const Clock& clock)> change;
   /// Adds a force at q to what moves the body in the coming step, after forces were summed. [ML/T2]
   std::function<void(Index body, const Vec& q, const Vec& force)> push;

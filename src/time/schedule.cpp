@@ -114,7 +114,7 @@ Schedule make_schedule(const World& world) {
   const std::vector<Phase> before{Phase::rates, Phase::laws, Phase::reductions, Phase::forces,
                                   Phase::constraints};
   const std::vector<Phase> after{Phase::drive, Phase::motion, Phase::relocation, Phase::preparation};
-  planner.plan(before), planner.plan(after);  // a step before tells what is stale at the start of one
+  planner.plan(before), planner.plan(after);  // a step before states what is stale at the start of one
   Schedule out;
   out.forces = planner.plan(before);
   out.motion = planner.plan(after);

@@ -10,9 +10,9 @@
 namespace courant {
 
 /// A step that stays what it is. Leapfrog keeps, of a mode, v^2 + omega^2 x^2 (1 - (omega dt)^2/4) with one
-/// dt alone: steps that follow a limit as it goes to and fro with the strain of the smallest element, or as
-/// corners touch and leave, pump the highest modes of the mesh (parametric resonance). So the step falls at
-/// once, to somewhat below the limit; and after a while in which more was allowed it grows slowly to the
+/// dt alone: steps that follow a limit as it goes back and forth with the strain of the smallest element, or
+/// as corners touch and leave, pump the highest modes of the mesh (parametric resonance). So the step falls
+/// at once, to somewhat below the limit; and after a while in which more was allowed it grows slowly to the
 /// least of that while. Theory: docs/theory.md.
 class SteadyStep {
  public:

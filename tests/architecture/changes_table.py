@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table "What a change touches" of docs/contributing.md is true: the words of each example stand in the files that its row names, and in no
+"""The table "What a change touches" of docs/contributing.md is true: the words of each example are in the files that its row names, and in no
 other file of src/; these files are of the kind that the row promises.
 
 usage: changes_table.py PROJECT_FOLDER

@@ -35,7 +35,7 @@ def paths_in(text):
 def exists(folder, path):
     if path.startswith(MADE):
         return True
-    path = path.replace("NAME", "*")  # stands for any name
+    path = path.replace("NAME", "*")  # represents any name
     if any(c in path for c in "*<>"):
         return any(folder.glob(path)) if "<" not in path else True
     return (folder / path).exists()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The hot loops are what they should be: each variant uses the vectors of its instruction set and no others, and nothing
-that one of them compiles can take the place of the same function of another file. Loops over single particles are
+that one of them compiles can replace the same function of another file. Loops over single particles are
 vectorised by the compiler: its own report tells.
 
 usage: hot_loops.py BUILD_FOLDER
@@ -79,7 +79,7 @@ if "Free Software Foundation" in run(compiler, "--version"):
             found = {int(n) for n in re.findall(rf"{re.escape(os.path.basename(where))}:(\d+):\d+: optimized: loop vectorized",
                                                 report.stderr)}
             for loop in [n for n, line in enumerate(lines, 1) if re.search(wanted, line)]:
-                if not any(loop - 1 <= n <= loop + 3 for n in found):  # may be told of the pragma
+                if not any(loop - 1 <= n <= loop + 3 for n in found):  # may be reported the pragma
                     faults.append(f"{where}:{loop}: the loop is not vectorised ({entry['command'].split(' -o ')[1].split()[0]})")
 print("\n".join(faults))
 sys.exit(1 if faults else 0)

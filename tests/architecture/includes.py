@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Rooms of src/ include each other downward only, and no file has grown past what one can read at a sitting.
+"""Folders of src/ include each other downward only, and no file has grown past what one can read at a sitting.
 
 usage: includes.py PROJECT_FOLDER
 """
@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-# A room may include itself, what stands here, and what those may include.
+# A folder may include itself, the folders listed here, and what those may include.
 MAY_INCLUDE = {
     "base": [],
     "parallel": ["base"],
@@ -42,9 +42,9 @@ TYPE = re.compile(r"^(?:class|struct|enum class|enum)\s+(?:alignas\([^)]*\)\s*)?
 NAMESPACE = re.compile(r"^namespace (\S+) \{", re.M)
 
 
-def closure(room):
-    """Every room that `room` may include."""
-    seen, waiting = {room}, [room]
+def closure(folder):
+    """Every folder that `folder` may include."""
+    seen, waiting = {folder}, [folder]
     while waiting:
         for below in MAY_INCLUDE[waiting.pop()]:
             if below not in seen:
@@ -53,10 +53,10 @@ def closure(room):
     return seen
 
 
-def faults_of_file(name, room, text, rooms):
-    """Messages on one file; `room` is its folder under src/."""
+def faults_of_file(name, folder, text, folders):
+    """Messages on one file; `folder` is the one under src/."""
     faults = []
-    allowed = rooms if room == TOP else closure(room)
+    allowed = folders if folder == TOP else closure(folder)
     for number, line in enumerate(text.splitlines(), 1):
         where = f"{name}:{number}: "
         include = re.match(r'\s*#\s*include\s*"([^"]+)"', line)
@@ -64,18 +64,18 @@ def faults_of_file(name, room, text, rooms):
             target = include.group(1).split("/")[0] if "/" in include.group(1) else None
             if target is None or ".." in include.group(1):
                 faults.append(where + f'"{include.group(1)}" should be written as "folder/file"')
-            elif target not in rooms:
-                faults.append(where + f'"{include.group(1)}": there is no room src/{target}')
+            elif target not in folders:
+                faults.append(where + f'"{include.group(1)}": there is no folder src/{target}')
             elif target not in allowed:
-                faults.append(where + f"{room} may not include {target}")
+                faults.append(where + f"{folder} may not include {target}")
         code = re.sub(r'"(\\.|[^"\\])*"', '""', line.split("//")[0])
-        if room != "parallel" and THREADS.search(line):
+        if folder != "parallel" and THREADS.search(line):
             faults.append(where + "threads are the business of parallel/")
-        if room != TOP and ENDS.search(code):
+        if folder != TOP and ENDS.search(code):
             faults.append(where + "the library never ends the program")
-        if room != TOP and PRINTS.search(code):
+        if folder != TOP and PRINTS.search(code):
             faults.append(where + "the library never prints")
-        if room != TOP and CATCH_ALL.search(code):
+        if folder != TOP and CATCH_ALL.search(code):
             faults.append(where + "catch (...) hides faults")
         if FIELD_BY_LITERAL.search(line.split("//")[0]):
             faults.append(where + "a field of another folder by a literal name; it belongs in state/shared_fields.hpp")
@@ -100,17 +100,17 @@ def faults_of_types(headers):
 def check(project):
     """All messages on a project."""
     source = project / "src"
-    rooms = {p.name for p in source.iterdir() if p.is_dir() and p.name != "python"}
-    faults = [f"src/{r}: a new room needs a line in tests/architecture/includes.py" for r in sorted(rooms - set(MAY_INCLUDE) - {TOP})]
+    folders = {p.name for p in source.iterdir() if p.is_dir() and p.name != "python"}
+    faults = [f"src/{r}: a new folder needs a line in tests/architecture/includes.py" for r in sorted(folders - set(MAY_INCLUDE) - {TOP})]
     files, headers = 0, {}
     for path in sorted(source.rglob("*")):
         if path.suffix not in (".hpp", ".cpp", ".h"):
             continue
-        room = path.relative_to(source).parts[0]
-        if room in MAY_INCLUDE or room == TOP:
+        folder = path.relative_to(source).parts[0]
+        if folder in MAY_INCLUDE or folder == TOP:
             files += 1
             text = path.read_text(encoding="utf-8")
-            faults += faults_of_file(str(path.relative_to(project)), room, text, rooms)
+            faults += faults_of_file(str(path.relative_to(project)), folder, text, folders)
             if path.suffix != ".cpp":
                 headers[str(path.relative_to(project))] = text
     faults += faults_of_types(headers)
@@ -121,12 +121,12 @@ def check(project):
 
 def self_test():
     """The rules must see what they forbid."""
-    rooms = set(MAY_INCLUDE) | {TOP}
+    folders = set(MAY_INCLUDE) | {TOP}
     bad = {
         ("laws", '#include "state/world.hpp"\n'): "laws may not include state",
         ("base", '#include "state/field.hpp"\n'): "base may not include state",
         ("sph", '#include "contact/contact.hpp"\n'): "sph may not include contact",
-        ("sph", '#include "nowhere/x.hpp"\n'): "there is no room",
+        ("sph", '#include "nowhere/x.hpp"\n'): "there is no folder",
         ("sph", '#include "../state/field.hpp"\n'): "should be written",
         ("sph", "#pragma omp parallel for\n"): "threads",
         ("sph", "#include <thread>\n"): "threads",
@@ -143,19 +143,19 @@ def self_test():
         ("app", '#include "contact/contact.hpp"\nstd::cout << 1;\n'),
         ("model", "// exit(1) in a comment\nstd::snprintf(b, 8, \"printf(\");\n"),
     ]
-    for (room, text), message in bad.items():
-        if not any(message in f for f in faults_of_file("x", room, text, rooms)):
-            return [f"self test: {room}: {text.strip()[:60]!r} was not seen"]
+    for (folder, text), message in bad.items():
+        if not any(message in f for f in faults_of_file("x", folder, text, folders)):
+            return [f"self test: {folder}: {text.strip()[:60]!r} was not seen"]
     twice = {"a.hpp": "class A {\n};\nclass B;\n", "b.hpp": "struct A : C {\n};\nclass B {\n};\n"}
     if len(faults_of_types(twice)) != 1 or faults_of_types({"a.hpp": "class B;\n", "b.hpp": "enum class B {\n"}):
         return ["self test: types of one name"]
-    for room, text in good:
-        if faults_of_file("x", room, text, rooms):
-            return [f"self test: {faults_of_file('x', room, text, rooms)[0]}"]
+    for folder, text in good:
+        if faults_of_file("x", folder, text, folders):
+            return [f"self test: {faults_of_file('x', folder, text, folders)[0]}"]
     return []
 
 
 if __name__ == "__main__":
     messages = self_test() + check(pathlib.Path(sys.argv[1]))
-    print("\n".join(messages) or "rooms are in order")
+    print("\n".join(messages) or "folders are in order")
     sys.exit(1 if messages else 0)

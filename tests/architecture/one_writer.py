@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the programs write is opened in one place for each language, src/output/file.cpp and src/python/courant/files.py: there links, devices, pipes
+"""What the programs write is opened in one location for each language, src/output/file.cpp and src/python/courant/files.py: there links, devices, pipes
 and inputs are looked at. No other file opens anything for writing, renames or copies. HDF5 writes to memory alone.
 
 usage: one_writer.py PROJECT_FOLDER
@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-# Language -> (ending, the one place, folders left out, what opens for writing elsewhere).
+# Language -> (ending, the one location, folders left out, what opens for writing elsewhere).
 CPP = re.compile(r"\b(?:w?ofstream|basic_ofstream|filebuf|fopen|freopen|fdopen|tmpfile|mkstemp|mkostemp|creat|openat|link|symlink|truncate|mkfifo|"
                  r"resize_file|copy_file)\s*[({<]|\bofstream\b|\bfstream\s+\w+\s*[({]|(?:::|\bstd::)rename\s*\(|\bfs::(?:rename|copy)\w*\s*\(|(?<![\w.>:])::open\s*\(")
 PYTHON = re.compile(r"\.write_(?:text|bytes)\(|\bsavefig\((?!frame,|content,|file, format=\"svg\")|\bos\.(?:open|rename|replace|link|symlink|truncate|mkfifo)\(|"

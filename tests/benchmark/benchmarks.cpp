@@ -1,5 +1,5 @@
 // Benchmarks of the step on Google Benchmark; tests/benchmark/report.py makes the tables of
-// docs/performance.md of what this program writes.
+// docs/benchmarks.md of what this program writes.
 //   benchmarks [--full | --smoke] [options of Google Benchmark]
 // --full adds the scenes that take minutes and gigabytes; --smoke runs the small ones for a few steps.
 #include <benchmark/benchmark.h>

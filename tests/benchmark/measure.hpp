@@ -1,5 +1,5 @@
 #pragma once
-// Times of steps, and what stands behind them.
+// Times of steps, and what is behind them.
 #include <string>
 #include <vector>
 
@@ -15,7 +15,7 @@ struct Effort {
   std::int64_t most_steps = 2000;  ///< of a chunk
 };
 
-/// Whole cycles of steps, each ending with one that built the lists anew.
+/// Whole cycles of steps, each ending with one that built the lists again.
 struct Chunk {
   std::int64_t steps = 0, particle_steps = 0, rebuilds = 0;
   double wall = 0, cpu = 0;            ///< s; cpu of all threads

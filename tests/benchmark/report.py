@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Runs the benchmarks and makes the tables of docs/performance.md of them.
+"""Runs the benchmarks and makes the tables of docs/benchmarks.md of them.
 
 usage: report.py BUILD_FOLDER [--full | --smoke] [--write] [--json FILE]
 
-Takes one to two minutes. Prints the tables; --write puts them between the two marker lines of docs/performance.md
+Takes one to two minutes. Prints the tables; --write puts them between the two marker lines of docs/benchmarks.md
 instead. --full adds the scenes that take many minutes and gigabytes, --smoke runs small ones for a few steps to see that
 all works. --json takes what an earlier run of the program wrote, without running it:
 benchmarks --benchmark_out=FILE --benchmark_out_format=json.
@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = PROJECT / "docs" / "performance.md"
+PAGE = PROJECT / "docs" / "benchmarks.md"
 BEGIN, END = "<!-- benchmarks: begin -->", "<!-- benchmarks: end -->"
 SETS = ("baseline", "avx2", "avx512")
 

@@ -77,8 +77,8 @@ constexpr int numbers_of_partners(int dim) {
 
 /// Bytes per particle and step: fields, lists (read by both pair loops), kept gradients (stored and loaded;
 /// with their entry; in windows loaded twice, and one factor once, two bytes each). entries: in reach, per
-/// group of eight and so also lanes looked at per particle. In windows pair loops read no places, no m and no
-/// qc, which nobody works out between them: 2 dim + 5 numbers less.
+/// group of eight and so also lanes looked at per particle. In windows pair loops read no positions, no m and
+/// no qc, which nobody works out between them: 2 dim + 5 numbers less.
 constexpr Real bytes_streamed(int dim, Real entries, Gradients gradients) {
   const Real of_pairs = gradients == Gradients::window ? (2 * dim + 1) * 16
                         : gradients == Gradients::kept ? 2 * 64 + sizeof(Index)

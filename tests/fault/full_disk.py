@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs into a disk that becomes full, for real: a tmpfs of a few hundred kilobytes. Whatever file fails, the run ends with exit code 2 and says what to
-do, everything that was written before stays whole, and once there is room the run goes on to the end it would have had.
+do, everything that was written before stays whole, and once there is space the run goes on to the end it would have had.
 
 usage: full_disk.py COURANT WORK_DIR
 """

@@ -11,10 +11,10 @@ namespace courant::fuzz {
 class Mutator {
  public:
   explicit Mutator(std::uint64_t seed);
-  /// The same for files of another kind: `pieces` in place of what decks are made of, `lines` in place of
+  /// The same for files of another kind: `pieces` instead of what decks are made of, `lines` instead of
   /// keywords. Both must outlive the mutator.
   Mutator(std::uint64_t seed, const std::vector<std::string>& pieces, const std::vector<std::string>& lines);
-  /// Changes `deck` in one to four places; `other` lends lines. At most `largest` bytes come out.
+  /// Changes `deck` in one to four locations; `other` lends lines. At most `largest` bytes come out.
   void change(std::string& deck, const std::string& other, std::size_t largest);
 
  private:
@@ -28,7 +28,7 @@ class Mutator {
   const std::vector<std::string>&pieces_, &keywords_;
 };
 
-/// Changes of bytes in one to four places: bits turned, numbers of 1 to 8 bytes set to values at their
+/// Changes of bytes in one to four locations: bits turned, numbers of 1 to 8 bytes set to values at their
 /// limits, bytes lost, doubled or taken from `other`, the end cut off. At most `largest` bytes come out.
 void change_binary(std::string& bytes, const std::string& other, std::size_t largest,
                    std::mt19937_64& random);

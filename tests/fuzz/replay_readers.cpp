@@ -3,7 +3,7 @@
 //   fuzz_readers [--seconds S] [--seed K] [--only NAME] [--limit S] [--sign] RUN...
 // Each RUN is the folder of a run with restart files. Each kind gets S seconds (2). Ends with 1 where reading
 // throws what it does not announce, takes more than --limit seconds (1) of processor time, or more than 1 GB
-// beyond what it had; where it crashes, the input remains in a folder that is told at the start.
+// beyond what it had; where it crashes, the input remains in a folder that is reported at the start.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>

@@ -20,8 +20,8 @@ inline const int chosen = [] {
   return text ? std::atoi(text) : -1;
 }();
 
-/// One byte for each change, not 0 where its place was reached: the file COURANT_MUTANTS_REACHED, which all
-/// processes share.
+/// One byte for each change, not 0 where its location was reached: the file COURANT_MUTANTS_REACHED, which
+/// all processes share.
 inline char* const reached = [] {
   const char* path = std::getenv("COURANT_MUTANTS_REACHED");
   const int file = path ? open(path, O_RDWR) : -1;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Do the unit tests notice broken code? Changes a copy of the sources in some sixty places at once, each change behind a switch, builds it
-once, and runs the tests that reach a place with the change of that place switched on.
+once, and runs the tests that reach a location with the change of that location switched on.
 
 usage: mutation.py WORK_FOLDER [--changes N] [--seed K] [--jobs J] [--retest] [--write FILE] [-- CMAKE_OPTION...]
 
 WORK_FOLDER gets the copy, its build and state.json. A call that was interrupted goes on where it was. The seed is new each time unless
 given. --retest takes the tests as they are now and asks again about the changes that were not noticed; --write puts the table into FILE
-(tests/mutation/report.md). Why a change needs no test stands in reasons.yaml. Exits with 1 if fewer than 90 % are noticed.
+(tests/mutation/report.md). Why a change needs no test is in reasons.yaml. Exits with 1 if fewer than 90 % are noticed.
 """
 import argparse
 import collections
@@ -66,7 +66,7 @@ class Run:
     # --- the changes -------------------------------------------------------------------------------------------------------------------
 
     def candidates(self):
-        """For each room, its places in the order in which the seed takes them: a kind at random first, so that no kind prevails."""
+        """For each room, its locations in the order in which the seed takes them: a kind at random first, so that no kind prevails."""
         rooms = {}
         chance = random.Random(self.state["seed"])
         for room in sorted(p for p in (self.original / "src").iterdir() if p.is_dir()):
@@ -223,7 +223,7 @@ class Run:
         return (failed or begun[-1:] or ["before any test"])[0], code
 
     def reach(self, late):
-        """Runs all tests that are not known yet once, and notes which places each of them reaches. `late`: they were added for --retest."""
+        """Runs all tests that are not known yet once, and notes which locations each of them reaches. `late`: they were added for --retest."""
         listed = subprocess.run([self.build / "tests/unit_tests", "--gtest_list_tests"], check=True, stdout=subprocess.PIPE, text=True).stdout
         names, suite = [], ""
         for line in listed.splitlines():
@@ -281,7 +281,7 @@ class Run:
         return None
 
     def reaching(self, change, late):
-        """Tests that reach its place, those that --retest found or the others."""
+        """Tests that reach its location, those that --retest found or the others."""
         tests = self.state["tests"]
         always = change["number"] in tests.get("before", {"reached": []})["reached"]
         return [n for n in tests if n != "before" and tests[n].get("late", False) == late and (always or change["number"] in tests[n]["reached"])]

@@ -68,7 +68,7 @@ def statement_end(text, at):
 
 
 def places(text):
-    """(kind, begin, end, replacement with {n} for the number of the change) of all places."""
+    """(kind, begin, end, replacement with {n} for the number of the change) of all locations."""
     mask = masked(text)
     found = []
 

@@ -1,6 +1,6 @@
-// Built into the unit tests of a copy of the tree by mutation.py: which places of changes each test reaches,
-// one line a test in the file COURANT_MUTANTS_TESTS: name, milliseconds, file, numbers. What was reached
-// before the first test stands under "before".
+// Built into the unit tests of a copy of the tree by mutation.py: which locations of changes each test
+// reaches, one line a test in the file COURANT_MUTANTS_TESTS: name, milliseconds, file, numbers. What was
+// reached before the first test is under "before".
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -40,7 +40,7 @@ def misfit(change, root):
 
 
 def switched(change, number):
-    """`instead` takes the place of an expression, `replace` of any text; {on} in it is true where the change is on."""
+    """`instead` replaces an expression, `replace` of any text; {on} in it is true where the change is on."""
     on = f"courant_mutants::on({number})"
     return f"({on} ? ({change['instead']}) : ({change['find']}))" if "instead" in change else change["replace"].replace("{on}", on)
 

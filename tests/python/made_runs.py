@@ -35,7 +35,7 @@ def block(nx: int, ny: int, nz: int, dx: float = DX) -> np.ndarray:
 
 
 def frame(*places: np.ndarray, t: float = 0.0, dim: int = 2, dx: float | np.ndarray = DX, v: Callable | None = None) -> ParticleFrame:
-    """A state of water at these places; v: (x, y) -> velocity (n,) or (n, 3)."""
+    """A state of water at these locations; v: (x, y) -> velocity (n,) or (n, 3)."""
     x = np.concatenate(places) if places else np.empty((0, 3))
     n = len(x)
     size = np.broadcast_to(np.asarray(dx, dtype=float), (n,))

@@ -117,7 +117,7 @@ def test_surface_over_a_bed_without_spray(analyses):
     top, first, everything = (run.column(f"{name}_mean", "mean") for name in ("top", "first", "all"))
     assert top[:3] == pytest.approx([0.04, 0.04, 0.09], abs=SLACK)  # the drop over 0.2 is spray
     assert first[2] == pytest.approx(0.04, abs=SLACK) and everything[1] == pytest.approx(0.07, abs=2 * SLACK)
-    assert len(run.column("top_layers", "low")) == 6  # four places, two with two pieces
+    assert len(run.column("top_layers", "low")) == 6  # four locations, two with two pieces
     assert len(run.column("top", "depth@0.3")) == 1
 
 

@@ -1,4 +1,4 @@
-"""Field files: what was written is read, whatever the packing; what is damaged is told."""
+"""Field files: what was written is read, whatever the packing; what is damaged is reported."""
 
 from __future__ import annotations
 

@@ -24,14 +24,14 @@ SOURCES = Path(__file__).resolve().parents[2] / "src" / "python"
 
 
 def channel(jump_at: float, t: float = 0.0):
-    """1.1 m long; the water stands at 4 rows upstream of a jump and at 16 rows downstream of it."""
+    """1.1 m long; the water is at 4 rows upstream of a jump and at 16 rows downstream of it."""
     x = np.concatenate([lattice(x1=1.1, y1=0.02), lattice(x1=1.1, y0=0.02, y1=0.08)])
     x = x[(x[:, 1] < 0.02) | (x[:, 0] >= jump_at)]
     return frame(x, t=t, v=lambda x, y: np.where(x < jump_at, 1.5, 0.35))
 
 
 def write_jump(folder, states=51):
-    """The jump stands at x = 1.2 (outside) before 1 s, then goes upstream from 0.9 at 0.1 m/s; a state every 0.1 s."""
+    """The jump is at x = 1.2 (outside) before 1 s, then goes upstream from 0.9 at 0.1 m/s; a state every 0.1 s."""
     write_run(folder, [channel(1.2 if s < 10 else 0.9 - 0.01 * (s - 10), 0.1 * s) for s in range(states)], "Hydraulic jump d1/4", shells=True)
 
 

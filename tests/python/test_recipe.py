@@ -1,4 +1,4 @@
-"""Recipes: what they hold, and their faults with places and hints."""
+"""Recipes: what they hold, and their faults with locations and hints."""
 
 from __future__ import annotations
 

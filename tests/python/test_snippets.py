@@ -78,7 +78,7 @@ def test_units(runs, monkeypatch):
 
 
 def test_a_file_of_ones_own(runs):
-    """The analysis and the chart, with the recipes that stand in their comments."""
+    """The analysis and the chart, with the recipes that are in their comments."""
     own = pieces("docs/post.md")[0]
     analysis, figure = re.findall(r"# (\{.*\})$", own, re.M)
     (runs / "my.py").write_text(own)

@@ -33,7 +33,7 @@ def test_noise_is_flat_and_keeps_its_variance(window, n):
 
 def test_a_parseval_sum_of_one_segment():
     values = scatter(64)
-    for n in (63, 64):  # the highest bin of an even n stands for itself alone
+    for n in (63, 64):  # the highest bin of an even n represents itself alone
         s = welch(values[:n], 0.5, SpectrumSettings(segment=1e9, window="rectangle", detrend="mean"))
         assert s.segments == 1 and s.variance(0, 10) == pytest.approx(values[:n].var(), rel=1e-12)
 

@@ -221,7 +221,7 @@ class TestRaster:
         raster.spheres(np.array([[0.5, 0.5, -1.0]]), np.array([0.2]), np.ones((1, 3)))
         before = raster.colour[10, 10].copy()
         raster.veil(x - [0, 0, 5], np.array([[0, 1, 2, 3]]), np.zeros(3), 0.5)
-        assert (raster.colour[10, 10] == before).all() and raster.colour[1, 1] == pytest.approx(0.3)  # not over what stands before it
+        assert (raster.colour[10, 10] == before).all() and raster.colour[1, 1] == pytest.approx(0.3)  # not over what is before it
 
 
 class TestPlane:
@@ -294,7 +294,7 @@ class TestPictures:
         assert high[0] > 0.7 and high[2] < 0.3 and low[0] < 0.35 and low[1] < 0.1 and (picture[10, 10] == 1).all()
 
     def test_fronts_of_solids_are_seen_not_their_backs(self, cubes):
-        view = View("v", "velocity.y", lines=False)  # the velocity is the place: 0 in front, 1 at the back
+        view = View("v", "velocity.y", lines=False)  # the velocity is the location: 0 in front, 1 at the back
         picture = render(scene_of(cubes.states[0], view), view, Camera.looking("z", 0, 0), (-0.5, 2.5, -0.5, 1.5), 0, 1, 300).image
         assert picture[100, 100] == pytest.approx(colours_of(np.array([0.0]), 0, 1, "viridis")[0], abs=0.1)
         picture = render(scene_of(cubes.states[0], view), view, Camera.looking("z", 180, 0), (-2.5, 0.5, -0.5, 1.5), 0, 1, 300).image

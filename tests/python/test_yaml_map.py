@@ -1,4 +1,4 @@
-"""Maps of recipes and suites: values, and every fault at its place."""
+"""Maps of recipes and suites: values, and every fault at its location."""
 
 from __future__ import annotations
 

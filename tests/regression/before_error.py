@@ -89,7 +89,7 @@ check("Warning: after this state" not in text, "without that warning")
 code, text = call("run", "slower.k", "-o", "long", "--restart", "long/restart/before_error.h5", "--threads", "1")
 check(code == 0, f"the file is still there, and can be named -> {code}")
 
-# --- a regular restart file that is newer is the one that a folder stands for
+# --- a regular restart file that is newer is the one that a folder represents
 write("both", TSSFAC, runrsf=0, d3dump=(last - 10), end=END)
 code, text = call("run", "both.k", "-o", "both", "--threads", "1")
 check(code == 2 and sorted(os.listdir("both/restart")) == ["before_error.h5", "d3dump01.h5"], f"both files -> {sorted(os.listdir('both/restart'))}")

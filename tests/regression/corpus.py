@@ -2,7 +2,7 @@
 """Decks that others wrote: each is read, or refused with a reason, and what is read is counted right.
 
 usage: corpus.py COURANT SOURCE_DIR [--write]
-The decks stand in the folder COURANT_CORPUS, else in ../shared/decks beside the project; without them the test is skipped.
+The decks are in the folder COURANT_CORPUS, else in ../shared/decks beside the project; without them the test is skipped.
 `courant check` must end by itself with exit code 0 or 1 for every file. The numbers of nodes, elements and the sums of masses that
 it prints must be those of the plain count below, which shares nothing with the reader. --write makes docs/conformance.md.
 """
@@ -46,7 +46,7 @@ def lines_per_element(name, line):
     options = name.split("_")[2:]
     if name.startswith("ELEMENT_SOLID"):
         fields = line.split(",") if "," in line else [line[i:i + 8] for i in range(0, len(line), 8)]
-        two = len([f for f in fields if f.strip()]) <= 2  # EID and PID; the nodes stand below
+        two = len([f for f in fields if f.strip()]) <= 2  # EID and PID; the nodes are below
         return (2 if two else 1) + (2 if "ORTHO" in options else 0) + (1 if "DOF" in options else 0)
     if name.startswith("ELEMENT_SHELL"):
         corners = line.split(",")[2:] if "," in line else [line[i:i + 8] for i in range(16, len(line), 8)]
@@ -59,7 +59,7 @@ def lines_per_element(name, line):
 
 
 def names_corners(line):
-    """Whether element, part and three nodes stand on a line: those of layers have a blank fourth field."""
+    """Whether element, part and three nodes are on a line: those of layers have a blank fourth field."""
     fields = line.split(",") if "," in line else [line[i:i + 8] for i in range(0, 40, 8)]
     return len(fields) >= 5 and all(re.fullmatch(r" *0*[1-9][0-9]* *", f) for f in fields[:5])
 
@@ -151,7 +151,7 @@ def classify(code, errors):
 
 def reason(message):
     """A message without what is particular to one deck."""
-    message = re.sub(r" \(here and in \d+ more places?\)", "", message)
+    message = re.sub(r" \(here and at \d+ more lines?\)", "", message)
     if m := re.search(r"^\*[^\s:]+: (.*)", message):
         return re.sub(r"'[^']*'", "'...'", m.group(1))
     return re.sub(r"'[^']*'", "'...'", re.sub(r"^.*?\]\): ", "", re.sub(r"\d+", "N", message)))

@@ -3,7 +3,7 @@
 
 usage: deck_runs.py COURANT SOURCE_DIR [--write] [--only WORD] [--limit SECONDS]
 
-The decks stand in structures/ of the folder COURANT_CORPUS, else of ../shared/decks beside the project, with FACTS.yaml: masses, kinetic energies and
+The decks are in structures/ of the folder COURANT_CORPUS, else of ../shared/decks beside the project, with FACTS.yaml: masses, kinetic energies and
 first steps by the nodes and elements alone. A deck passes if its run ends at its end time with a verdict that is not *broken*, with the mass, where it asks for histories, within 0.1 %.
 A first step above the one counted is a fault, too: below it may be, where contact, viscosity or the mesh's frequency shorten it. --write
 makes the last section of docs/conformance.md. Takes minutes, so ctest leaves it out.

@@ -66,7 +66,7 @@ def read(path):
 
 
 def against_history(folder, places, values):
-    """Largest difference of places and pressures of particles 1 and 20 to those in history.h5."""
+    """Largest difference of locations and pressures of particles 1 and 20 to those in history.h5."""
     worst_x = worst_p = 0
     with h5py.File(os.path.join(folder, "history.h5")) as h5:
         times = h5["global/time"][:]
@@ -116,7 +116,7 @@ check(last["x"].dtype == numpy.float64, "far from the origin places are float64"
 near = read(os.path.join(plain, states(plain, "particles")[0][1]))
 check(abs(last["x"] - near["x"] - [100000, 0, 0]).max() < 1e-6, "and keep their digits")
 
-# --- the timing table adds up, and the summary tells what output costs
+# --- the timing table adds up, and the summary states what output costs
 with open("plain/messag") as file:
     messag = file.read()
 table = re.search(r"T i m i n g   i n f o r m a t i o n.*\n((?:  .*\n)+)", messag).group(1)

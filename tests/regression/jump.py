@@ -94,7 +94,7 @@ mass = tables["fluxes_mean/mass_mean"][:]
 unit = tables["fluxes_mean/mass_mean"].attrs["unit"]
 check(unit in (b"kg/(m s)", "kg/(m s)"), f"unit of the mass flux {unit}")
 inflow = 1000 * 1.5 * 0.02
-# x = 0.05 to 0.15 m: the jet is undisturbed there, since the toe stands at 0.22 m at the end
+# x = 0.05 to 0.15 m: the jet is undisturbed there, since the toe is at 0.22 m at the end
 check(numpy.all(numpy.abs(mass[:3] / inflow - 1) < 0.01), f"mass flux of the jet {mass[:3] / inflow} of the inflow's, bound 1 %")
 kinetic = tables["fluxes_mean/kinetic_mean"][:] + tables["fluxes_mean/potential_mean"][:]
 check(kinetic[-1] < 0.9 * kinetic[0], f"kinetic and potential energy flux falls through the jump: {kinetic[0]:.2f} to {kinetic[-1]:.2f} W/m")

@@ -75,7 +75,7 @@ code, out = call("d4_better")
 after = (results / "d4_better" / "summary.yaml").stat().st_mtime_ns, (results / "d4_better" / "evaluated.yaml").stat().st_mtime_ns
 check(code == 0 and before == after and "is complete" in out, "a complete run is neither run nor evaluated again")
 
-# ---- jumps that stand still have a page of their own
+# ---- standing jumps have a page of their own
 code, out = call("fr24")
 page = (results / "page_standing.md").read_text()
 check(code == 0 and page.startswith("# Jumps that stand still") and "| 2.4 | d1/8 | 22 |" in page, "Fr1 = 2.4 with its Reynolds number")

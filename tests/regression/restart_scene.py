@@ -60,7 +60,7 @@ def differing(a, b):
 
 
 def text_of(file):
-    """Without dates, and without the one number that tells how fast the machine is."""
+    """Without dates, and without the one number that states how fast the machine is."""
     with open(file) as stream:
         text = stream.read()
     return re.sub(r"time per zone cycle.*", "", re.sub(r"date .*", "", text))

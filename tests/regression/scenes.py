@@ -73,7 +73,7 @@ said, end = computed("still_mm", "title: still water\nwater: {spacing: 25, densi
                      "box: {low: [0, 0], high: [500, 700], open: [top]}\nwall_method: contact\ngravity: 9810\nend: 2\noutput: 0.1\n")
 check("Units: tonne-mm-s" in said, "the units are seen")
 
-# --- LS-DYNA's defaults are told of, and what to type
+# --- LS-DYNA's defaults are reported, and what to type
 deck = open("dam_break.k").read()
 usual = re.sub(r"(\*MAT_NULL\n.*\n.{20}).{10}", r"\g<1>       0.0", deck)
 usual = re.sub(r"(sfsa      sfsb\n).{10}", r"\g<1>       1.0", usual)

@@ -138,7 +138,7 @@ def changes(size: float) -> list[Change]:
 
 @dataclass
 class Model:
-    """A scene. Elements that contact sees as sides keep them when it is mirrored: corners are named the other way round."""
+    """A scene. Elements that contact sees as sides keep them when it is mirrored: corners are named reversed."""
 
     name: str = ""
     steps: int = 200
@@ -182,7 +182,7 @@ class Model:
         self.card("DEFINE_CURVE", [k], *([of_x(x), of_y(y)] for x, y in pairs))
 
     def moves(self, v: Callable, nodes: Iterable[int] | None = None):
-        """Velocities at the start, of places."""
+        """Velocities at the start, of positions."""
         which = self.nodes if nodes is None else nodes
         self.card("INITIAL_VELOCITY_NODE", *([N(n), velocity(v(self.nodes[n]))] for n in which), shuffled=True)
 

@@ -72,7 +72,7 @@ def type_ref(k: int):
 
 
 def difference(a: dict, b: dict, model: Model) -> float:
-    """Largest of places and velocities, of how far and how fast things moved; and of energies."""
+    """Largest of positions and velocities, of how far and how fast things moved; and of energies."""
     if a["cycle"] != b["cycle"] or set(a["points"]) != set(b["points"]):
         return np.inf
     ids = sorted(a["points"])

@@ -28,7 +28,7 @@ def run(text, folder, threads=1):
 
 
 def places_of(out):
-    """Times, and the places (x, z) of the joints and of the end at each."""
+    """Times, and the positions (x, z) of the joints and of the end at each."""
     times, states, now = [], [], 0.0
     with open(os.path.join(out, "nodout"), encoding="utf-8") as file:
         for line in file:

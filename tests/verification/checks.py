@@ -1,4 +1,4 @@
-"""What the scripts beside this share: bounds that are told as they are looked at, and runs in folders of their own."""
+"""What the scripts beside this share: bounds that are reported as they are looked at, and runs in folders of their own."""
 import os
 import subprocess
 

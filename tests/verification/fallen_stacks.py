@@ -114,7 +114,7 @@ def main():
     parser.add_argument("--end", type=float, help="end time of all cases")
     parser.add_argument("--keep", help="folder in which the results stay")
     a = parser.parse_args()
-    print("| case | steps | top above its place, µm | kinetic, of what passed | energy from nowhere | hourglass over internal | leaks | verdict | s |\n|---|---:|---:|---:|---:|---:|---:|---|---:|")
+    print("| case | steps | top above its place, µm | kinetic, of what passed | created energy | hourglass over internal | leaks | verdict | s |\n|---|---:|---:|---:|---:|---:|---:|---|---:|")
     with tempfile.TemporaryDirectory() as scratch:
         folder = a.keep or scratch
         os.makedirs(folder, exist_ok=True)

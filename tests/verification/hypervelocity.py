@@ -65,7 +65,7 @@ def check(r, low, high):
     print(f"dim {r['dim']}, n = {r['n']}, {r['speed']:g} m/s: {int(r['particles'])} particles, {int(r['steps'])} steps of {r['dt'][0]:.3g} to {r['dt'][1]:.3g} ms, "
           f"hole {r['hole']:.1f} mm, cloud {r['length']:.1f} x {r['width']:.1f} mm, {r['verdict']}")
     bound("  hole, mm", r["hole"], low, high)
-    bound("  energy from nowhere", r["energy"], -0.003, 0.003)
+    bound("  created energy", r["energy"], -0.003, 0.003)
     bound("  momentum", r["momentum"], -1e-6, 1e-6)
     bound("  verdict is sound", r["verdict"] == "sound", 1, 1)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does the verification suite notice broken physics? Breaks a copy of the sources in one place after another (mutants.yaml), builds it
+"""Does the verification suite notice broken physics? Breaks a copy of the sources in one position after another (mutants.yaml), builds it
 and runs `courant verify`: a missed bound, a run that stops, a refusal or a failed build tells.
 
 usage: mutants.py WORK_FOLDER [--only TEXT] [--all-cases] [--fresh] [--minutes M] [--write FILE] [-- CMAKE_OPTION...]
@@ -153,7 +153,7 @@ def verify(tree, suite_file, cases, folder):
 
 
 def bound_of(suite, check):
-    """As it stands in the suite now, which may be tighter than when the check was measured."""
+    """As it is in the suite now, which may be tighter than when the check was measured."""
     case = next(c for c in suite["cases"] if c["name"] == check["case"])
     for o in case["observations"]:
         if o["name"] == check["observation"]:

@@ -19,7 +19,7 @@ def cube(x):
 
 
 def rounded(x):
-    """Most of the way to a ball: all of it would make the angles of elements at the edges flat."""
+    """Most of the path to a ball: all of it would make the angles of elements at the edges flat."""
     far, size = max(abs(v) for v in x), math.sqrt(sum(v * v for v in x))
     scale = 0.3 + 0.7 * far / size if size > 0 else 1
     return [v * scale for v in x]

@@ -24,7 +24,7 @@ std::string verdict_of(const CheckResult& result, const Diagnostics& diagnostics
   return fmt::format("{}; the deck cannot be run\n", found);
 }
 
-/// Empty where the deck cannot be run; `diagnostics` then tell why.
+/// Empty where the deck cannot be run; `diagnostics` then state why.
 std::string model_part(const std::string& path, Deck deck, const DeckFacts& facts, ModelFacts& model,
                        Diagnostics& diagnostics) {
   const auto simulation = Simulation::from_deck(path, std::move(deck), diagnostics);

@@ -179,7 +179,7 @@ class ChoiceAdvice {
           id(k), L, 100 * lost, period, 100 * (1 - std::pow(1 - lost, std::pow(2, 1.5))));
   }
 
-  /// The lattice of the cubic spline resists shear (docs/theory.md, Kernel).
+  /// The lattice of the cubic spline resists shear (docs/theory_sph.md, Kernel).
   void bodies_afloat() {
     if (s_.sph().kernel != KernelChoice::cubic_spline || !s_.bodies()) return;
     for (const RigidBody& b : s_.bodies()->bodies()) {

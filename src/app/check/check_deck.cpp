@@ -1,4 +1,4 @@
-// `courant check`, first part: what stands in the deck, sound or not.
+// `courant check`, first part: what is in the deck, sound or not.
 #include <fmt/format.h>
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ std::string size_of(const DeckFile& file) {
                                    : fmt::format("{:.1f} MB", bytes / 1e6));
 }
 
-/// How deep a file stands in the tree of includes.
+/// How deep a file is in the tree of includes.
 int depth_of(const Deck& deck, const DeckFile& file) {
   int depth = 0;
   for (std::int32_t f = file.parent; f >= 0; f = deck.files[static_cast<std::size_t>(f)].parent) ++depth;

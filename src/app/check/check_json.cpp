@@ -3,6 +3,7 @@
 
 #include "app/check/check.hpp"
 #include "base/json_text.hpp"
+#include "base/version.hpp"
 
 namespace courant {
 

@@ -188,7 +188,7 @@ std::optional<UnitNames> guess_units(const DeckFacts& facts, const std::vector<R
 std::string units_text(const DeckFacts& facts, const std::vector<Real>& sound_speeds) {
   const Evidence e = evidence_of(facts, sound_speeds);
   std::vector<Fit> fits = fits_of(e);
-  if (fits.empty()) return "Units: the deck has neither densities nor gravity to tell them from\n";
+  if (fits.empty()) return "Units: the deck has neither densities nor gravity to derive them from\n";
   if (!fits_well(fits[0])) {
     fits.resize(3);
     return "Units: no common system fits; are they consistent?\n" + table(fits);

@@ -35,8 +35,8 @@ std::string walls_text(const Simulation& s) {
     if (const int belt = walls.belts.of(segment); belt >= 0) {
       const WallMotion& m = walls.belts.belts[static_cast<std::size_t>(belt)].motion;
       line += m.omega.isZero(0)
-                  ? fmt::format(", a belt of {:g} [L/T] at factor 1", m.v.norm())
-                  : fmt::format(", a belt that turns with {:g} [1/T] at factor 1", m.omega.norm());
+                  ? fmt::format(", a surface moving at {:g} [L/T] at factor 1", m.v.norm())
+                  : fmt::format(", a surface rotating at {:g} [1/T] at factor 1", m.omega.norm());
     }
     slips |= !wall.no_slip && !wall.rubs();
     const auto part = static_cast<std::size_t>(s.world().segments.part[segment]);

@@ -143,7 +143,7 @@ class SceneWarnings {
             fmt::format("none of the shells reaches through the plane of the particles, z = {:g}: in "
                         "2D they are no wall",
                         z),
-            "walls of a 2D scene stand upright on the plane, with nodes on both sides of it");
+            "walls of a 2D scene are normal to the plane, with nodes on both sides of it");
     }
   }
 
@@ -180,7 +180,7 @@ class SceneWarnings {
     warn_of_part(part,
                  fmt::format("particles reach {:.4g} [L], and are {:.4g} apart: they have {}", reach, dx,
                              reach <= dx ? "no neighbours" : "too few neighbours"),
-                 "CSLH of *SECTION_SPH is usually 1.2; SPHINI takes its place where it is given");
+                 "CSLH of *SECTION_SPH is usually 1.2; SPHINI replaces it where it is given");
   }
 
   /// Sum of the kernel over the neighbours of a particle times its volume: 1 inside of a body.
@@ -245,7 +245,7 @@ class SceneWarnings {
       });
       if (size[k] > 0 || !others || images) continue;
       diagnostics_.warning({s_.deck().files[0].name},
-                           fmt::format("all particles stand in one plane, {} = {:g}, and the scene is one of "
+                           fmt::format("all particles are in one plane, {} = {:g}, and the scene is one of "
                                        "three dimensions",
                                        "xyz"[k], low[k]),
                            "give IDIM 2 of *CONTROL_SPH, with the particles in a plane z = constant");

@@ -6,7 +6,7 @@
 
 namespace courant {
 
-/// Where speeds and densities of a run leave what a weakly compressible liquid stands for: speeds above
+/// Where speeds and densities of a run leave what a weakly compressible liquid represents: speeds above
 /// `most_mach` of the sound speed, densities off RO by more than a share of `most_change`. One line each.
 /// Nothing of gases.
 std::vector<std::string> range_warnings(const Ranges& ranges, Real most_mach, Real most_change);

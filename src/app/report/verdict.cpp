@@ -60,7 +60,7 @@ void add_curvature(const Summary& s, std::vector<Finding>& out) {
   out.push_back(
       {false, fmt::format("shells of formulation 2 bent without the moments of their curvature, {:.3g} % of "
                           "their energy: without a stiffness about the normal curved surfaces and open "
-                          "sections give way too far; {}",
+                          "sections deform too far; {}",
                           100 * share, with_drilling)});
 }
 
@@ -99,7 +99,7 @@ void add_creep(const Summary& s, std::vector<Finding>& out) {
   out.push_back(
       {false,
        fmt::format("the dynamic relaxation ended at rest by its kinetic energy, but nodes still crept, with "
-                   "{:.2g} of their way ahead: hold what is loose, or give a DRFCTR nearer to 1",
+                   "{:.2g} of their displacement ahead: hold what is loose, or give a DRFCTR nearer to 1",
                    *ahead)});
 }
 
@@ -109,9 +109,10 @@ void add_joint_gap(const Summary& s, std::vector<Finding>& out) {
   constexpr Real doubtful = 1e-5, doubtful_spring = 0.01;
   if (const Real share = largest(s, "joint_spring_gap_share").value_or(0); share > doubtful_spring)
     out.push_back(
-        {false, fmt::format("a joint of rigid bodies, a penalty spring, opened by {:.2g} of the size of its "
-                            "smaller body: give it a larger RPS, or make places and axes of the joints fit",
-                            share)});
+        {false,
+         fmt::format("a joint of rigid bodies, a penalty spring, opened by {:.2g} of the size of its "
+                     "smaller body: give it a larger RPS, or make positions and axes of the joints fit",
+                     share)});
   if (largest(s, "joint_spring_gap_share")) return;  // what exact joints opened by made springs of them
   const Real share = largest(s, "joint_gap_share").value_or(0);
   if (!(share > doubtful)) return;
@@ -227,9 +228,10 @@ void add_scaled_momentum(const Summary& s, std::vector<Finding>& out) {
   if (!(all > 0)) return;
   const Real share = added / all;
   if (!(share > s.limits.residual_doubtful)) return;
-  out.push_back({false, fmt::format("mass that DT2MS added on the way brought momentum with it, {:.3g} % of "
-                                    "that of all nodes: take a smaller |DT2MS|, or MS1ST 1",
-                                    100 * share)});
+  out.push_back(
+      {false, fmt::format("mass that DT2MS added during the run brought momentum with it, {:.3g} % of "
+                          "that of all nodes: take a smaller |DT2MS|, or MS1ST 1",
+                          100 * share)});
 }
 
 void add_clamps(const Summary& s, std::vector<Finding>& out) {

@@ -16,7 +16,7 @@ inline constexpr const char* relaxation_head =
 struct RelaxationEnd {
   bool converged = false, stopped = false;
   Real ratio = 0;       ///< largest kinetic energy since the look before, over the largest of all [-]
-  Real ahead = 1;       ///< share of the way of the nodes that is still ahead, by how changes shrink [-]
+  Real ahead = 1;       ///< share of the path of the nodes that is still ahead, by how changes shrink [-]
   Real factor = 0;      ///< DRFCTR that suits the lowest frequency; 0: not known [-]
   bool creeps = false;  ///< at rest by its energy for long, but nodes moved on
   Real yielded = 0;     ///< largest plastic strain, where a load acts at once [-]
@@ -30,7 +30,7 @@ RelaxationEnd relax(Simulation& relaxing, const std::function<bool()>& stop,
                     const std::function<void(const std::string&)>& line);
 
 /// The same in front of a run whose deck asks for it: writes the file `relax`, hands the state to `run`, and
-/// tells of it by `tell`. Returns what `stop` said, if that ended it. Throws RunError where `options` lack
+/// reports it by `tell`. Returns what `stop` said, if that ended it. Throws RunError where `options` lack
 /// the other simulation.
 std::optional<RunEnd> relax_before(Simulation& run, const RunOptions& options,
                                    const std::function<std::optional<RunEnd>()>& stop,

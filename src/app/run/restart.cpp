@@ -10,6 +10,7 @@
 #include "app/run/app_cards.hpp"
 #include "app/run/result_folder.hpp"
 #include "base/instruction_set.hpp"
+#include "base/version.hpp"
 #include "output/hdf5.hpp"
 #include "output/restart_file.hpp"
 
@@ -91,7 +92,8 @@ Restart latest_of(const fs::path& folder) {
     std::string text =
         fmt::format("cannot restart from '{}': there is no whole restart file in it", folder.string());
     for (const std::string& fault : faults) text += "\n  " + fault;
-    throw RestartError(text + "\n  hint: start the run anew; *DATABASE_BINARY_RUNRSF asks for restart files");
+    throw RestartError(text +
+                       "\n  hint: start the run again; *DATABASE_BINARY_RUNRSF requests restart files");
   }
   Restart out = read(file);
   out.warnings.insert(out.warnings.begin(), faults.begin(), faults.end());
@@ -121,7 +123,7 @@ Restart open_restart(const fs::path& file_or_folder) {
     const std::string other = latest_whole(restart_files(folder), file_or_folder, ignored);
     throw RestartError(std::string(fault.what()) + "\n  hint: " +
                        (other.empty() ? "give a file that `courant run` wrote to its folder restart/, or the "
-                                        "folder of the run; without one start the run anew"
+                                        "folder of the run; without one start the run again"
                                       : fmt::format("'{}' is whole: --restart {}", other, other)));
   }
 }
@@ -162,7 +164,7 @@ std::vector<std::string> RestartSchedule::due(std::int64_t cycle) {
 
 bool prepare_folder(const RunOptions& options, const Deck& deck) {
   const fs::path dir = options.dir;
-  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
+  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is reported then
   const bool goes_on = options.restart && fs::equivalent(fs::absolute(options.restart->file).parent_path(),
                                                          dir / "restart", ignored);
   std::vector<fs::path> inputs;

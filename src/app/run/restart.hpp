@@ -24,7 +24,7 @@ struct Restart {
   std::vector<std::string> warnings;  ///< files passed over, and why bits may differ from here on
 };
 
-/// The file, or the latest whole one of a folder of results. Throws RestartError, which tells what is wrong
+/// The file, or the latest whole one of a folder of results. Throws RestartError, which states what is wrong
 /// and which other file could be used.
 Restart open_restart(const std::filesystem::path& file_or_folder);
 

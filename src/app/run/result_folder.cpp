@@ -69,7 +69,7 @@ void check_result_folder(const fs::path& dir, const std::vector<fs::path>& input
 }
 
 void remove_results(const fs::path& dir) {
-  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is told then
+  std::error_code ignored;  // a file that cannot be removed cannot be replaced either: that is reported then
   for (const fs::path& file : entries(dir / "fields"))
     if (is_result_name("fields" / file.filename())) fs::remove(file, ignored);
   for (const fs::path& file : entries(dir / result_names::gauges))

@@ -16,6 +16,7 @@
 #include "app/run/state_copies.hpp"
 #include "app/run/state_files.hpp"
 #include "base/run_error.hpp"
+#include "base/version.hpp"
 #include "output/ascii/ascii.hpp"
 #include "output/folder_lock.hpp"
 #include "output/messag.hpp"
@@ -26,7 +27,6 @@
 #include "time/guard.hpp"
 
 namespace courant {
-
 namespace {
 
 /// The restart file that a stop in error leaves.
@@ -354,7 +354,7 @@ class Run {
     failure_ = " *** Error: " + reason;
   }
 
-  /// What the state tells of the failure: advice, and the state itself for those who want to look.
+  /// What the state reports the failure: advice, and the state itself for those that want to look.
   void explain(const RunError& error) {
     failed_state_ = true;
     s_.guard().note_ranges(s_.world(), s_.clock());

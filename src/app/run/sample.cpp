@@ -174,7 +174,7 @@ void sample_parts(const World& world, const Model& model, Sample& s) {
 void sample_boundary_forces(const World& world, const Clock& clock, std::vector<BoundaryForce>& out) {
   const auto report = [&](const BoundaryForceReporter& one) { one.report_forces(world, clock, out); };
   for (const auto* reporter : world.passes.all<const BoundaryForceReporter>()) report(*reporter);
-  // particles stand in an order of their own, which changes
+  // particles are in an order of their own, which changes
   std::sort(out.begin(), out.end(), [](const BoundaryForce& a, const BoundaryForce& b) {
     return a.kind != b.kind ? a.kind < b.kind : a.id < b.id;
   });

@@ -28,7 +28,7 @@ StateCopies::StateCopies(const World& world, bool wanted, std::int64_t first_cyc
   refusal_ = fmt::format(
       "a stop in error will leave no restart file of its own: a copy of the state would take {:.1f} GB, more "
       "than "
-      "{:.1f}; *DATABASE_BINARY_RUNRSF writes restart files on the way",
+      "{:.1f}; *DATABASE_BINARY_RUNRSF writes restart files during the run",
       1e-9 * static_cast<double>(bytes), 1e-9 * static_cast<double>(most_bytes));
 }
 

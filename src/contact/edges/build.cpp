@@ -157,8 +157,8 @@ class EdgeContactBuilder {
     if (!deck_.all<TransducerCard>().empty())
       diagnostics_.warning(
           deck_.where(c),
-          fmt::format("{}: force transducers do not tell what edges do to edges", deck_.keyword(c)),
-          "rcforc tells it, in a second line of this contact");
+          fmt::format("{}: force transducers do not include forces between edges", deck_.keyword(c)),
+          "rcforc has them, in a second line of this contact");
   }
 
   void report(const ContactCard& c, const EdgeContact::Penetrations& p) {

@@ -38,7 +38,7 @@ struct NearestPoints {
 };
 /// Of edges that are parallel and beside each other: in the middle of where they are so.
 NearestPoints nearest_points(const EdgeEnds& a, const EdgeEnds& b);
-/// The part of a, in [0, 1], that b stands beside: from, to; empty where the second is not above the first.
+/// The part of a, in [0, 1], that b is beside: from, to; empty where the second is not above the first.
 std::array<Real, 2> beside(const EdgeEnds& a, const EdgeEnds& b);
 /// The same for a given point of a.
 NearestPoints nearest_to_point(const EdgeEnds& a, const EdgeEnds& b, Real s);

@@ -94,7 +94,7 @@ void EdgeContact::declare(const World& world, Accesses& a) const {
   if (eroded_) a.reads(*eroded_, Reach::others);
 }
 
-// Lists are made anew when nodes may have come nearer than lists reach.
+// Lists are made again when nodes may have come nearer than lists reach.
 void EdgeContact::follow(World& world, const Clock& clock) {
   const Nodes& nodes = world.nodes;
   Real moved2 = 0, v2 = 0;

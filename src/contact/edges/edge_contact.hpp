@@ -1,5 +1,6 @@
 #pragma once
-// Penalty contact of edges of shells and solids, and of beams, with each other. Equations: docs/theory.md.
+// Penalty contact of edges of shells and solids, and of beams, with each other. Equations:
+// docs/theory_contact.md.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -18,10 +19,10 @@
 
 namespace courant {
 
-/// The interface at work, see docs/theory.md. Edges that cross touch where they are nearest to each other;
-/// along a line of edges the nearest pair has the touch, and hands it on. Edges that begin to touch side by
-/// side have two touches, at Gauss points of the length that they share. A touch knows the side that it came
-/// from, so neither thin beams nor speed make it go on the wrong side.
+/// The interface at work, see docs/theory_contact.md. Edges that cross touch where they are nearest to each
+/// other; along a line of edges the nearest pair has the touch, and hands it on. Edges that begin to touch
+/// side by side have two touches, at Gauss points of the length that they share. A touch knows the side that
+/// it came from, so neither thin beams nor speed make it go on the wrong side.
 ///
 /// Forces go to a list of touches, from which each node gathers its own in a fixed order. What survives a
 /// step is that list.
@@ -63,7 +64,7 @@ class EdgeContact : public Force,
     Real deepest = 0;  ///< [L]
     Id node = 0;       ///< of the deepest
   };
-  /// Pairs that stand in each other now.
+  /// Pairs that are in each other now.
   Penetrations penetrations(World& world);
 
  private:
@@ -94,7 +95,7 @@ class EdgeContact : public Force,
   struct Pair {
     Index a = 0, b = 0;  ///< a < b
     NearestPoints at;
-    bool turned = false;  ///< a stands for the b of another pair
+    bool turned = false;  ///< a represents the b of another pair
   };
 
   void follow(World& world, const Clock& clock);
@@ -156,10 +157,10 @@ class EdgeContact : public Force,
   bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
 
   std::vector<Block> blocks_;
-  std::vector<Touch> touches_;              ///< sorted; in `block` those that go on
-  std::set<std::array<Index, 2>> parted_;   ///< pairs whose touches ended in this step
-  std::vector<Real> springs_;               ///< by place in involved_: stiffness of touches a step ago [M/T2]
-  std::vector<Index> key_, first_, order_;  ///< four for each touch, by place in involved_
+  std::vector<Touch> touches_;             ///< sorted; in `block` those that go on
+  std::set<std::array<Index, 2>> parted_;  ///< pairs whose touches ended in this step
+  std::vector<Real> springs_;  ///< by position in involved_: stiffness of touches a step ago [M/T2]
+  std::vector<Index> key_, first_, order_;  ///< four for each touch, by position in involved_
   StiffestContact stiffest_;
   Real due_ = 0;
   Resource touches_resource_{"touches of edges"};

@@ -16,7 +16,7 @@ Index EdgeContact::node_of(const Touch& touch, int corner) const {
   return edge(corner < 2 ? touch.a : touch.b).node[static_cast<std::size_t>(corner % 2)];
 }
 
-// In the place of a less that of b.
+// In the position of a less that of b.
 Real EdgeContact::share_of(const Touch& touch, int corner) {
   const Real at = corner < 2 ? touch.at.s : touch.at.t, share = corner % 2 == 0 ? 1 - at : at;
   return corner < 2 ? share : -share;

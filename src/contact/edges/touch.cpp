@@ -21,7 +21,7 @@ constexpr Real edge_start_rounding = 1e-6;
 /// Gauss points of [0, 1].
 const std::array<Real, 2> gauss_points{0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)};
 
-/// Nearest distance of a straight way from the origin. [L]
+/// Nearest distance of a straight path from the origin. [L]
 Real nearest_on_way(const Vec& from, const Vec& to) {
   const Vec way = to - from;
   const Real way2 = way.squaredNorm();
@@ -95,7 +95,7 @@ Real EdgeContact::gap_of(Touch& touch) const {
 }
 
 // Half of the step is the old pair's, half the nearer one's, as are the impulses: the depth is what that
-// makes of it, so that no energy comes or goes however often a touch changes to and fro.
+// makes of it, so that no energy comes or goes however often a touch changes back and forth.
 void EdgeContact::hand_on(const World& world, const Clock& clock, Touch& touch) const {
   const Pair now{touch.a, touch.b, touch.at, false};
   Pair nearer;

@@ -82,7 +82,8 @@ Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y) {
 namespace {
 
 /// Newton's method for the nearest point of r(s, t): (r - y).r_s = (r - y).r_t = 0. Of a flat parallelogram
-/// the first step is exact. Where it goes to and fro, on folded faces, far outside: they have no foot there.
+/// the first step is exact. Where it goes back and forth, on folded faces, far outside: they have no foot
+/// there.
 std::array<Real, 2> nearest_on_quadrilateral(const FaceCorners& x, const Vec& y) {
   const Vec mean = 0.25 * (x[0] + x[1] + x[2] + x[3]), a = 0.25 * (x[1] - x[0] + x[2] - x[3]),
             b = 0.25 * (x[3] - x[0] + x[2] - x[1]), c = 0.25 * (x[0] - x[1] + x[2] - x[3]);

@@ -30,7 +30,7 @@ struct ContactFace {
   }
 };
 
-/// Where a face is now, roughly: what tells that a node is far from it.
+/// Where a face is now, roughly: what states that a node is far from it.
 struct FaceShape {
   Vec centre = Vec::Zero(), n = Vec::Zero();      ///< mean of the corners; unit normal [L], [-]
   Real radius = 0;                                ///< of a sphere around the corners [L]
@@ -39,8 +39,8 @@ struct FaceShape {
   std::array<Real, 4> extent{};  ///< least and greatest of the corners along both, from the centre [L]
 };
 
-/// Distance of a place, given from the centre, from a box around the corners, `wider` along the face: at most
-/// that from the face. [L]
+/// Distance of a position, given from the centre, from a box around the corners, `wider` along the face: at
+/// most that from the face. [L]
 Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider);
 
 /// Faces reach this far beyond their edges, of their width: over faces that go on there, and for ties.
@@ -65,8 +65,8 @@ inline Real level_at(Real depth, Real width) {
 
 using FaceCorners = std::array<Vec, 4>;
 
-/// The point of a face nearest to a place. Beyond an edge: still that of the bilinear map while `over` holds,
-/// else the nearest point of the edges.
+/// The point of a face nearest to a position. Beyond an edge: still that of the bilinear map while `over`
+/// holds, else the nearest point of the edges.
 struct Projection {
   Vec q = Vec::Zero();      ///< [L]
   Vec n = Vec::Zero();      ///< unit normal of the face there [-]
@@ -85,7 +85,7 @@ Vec plane_normal(const FaceCorners& x);
 Vec centre_of(const FaceCorners& x, int corners);
 FaceShape shape_of(const FaceCorners& x, int corners);
 Projection project(const FaceCorners& x, int corners, const Vec& y);
-/// The same where the place is over the face; else nothing holds but that it is not.
+/// The same where the position is over the face; else nothing holds but that it is not.
 Projection project_over(const FaceCorners& x, int corners, const Vec& y);
 /// The nearest point of the plane that goes on from the nearest point of the edges, along the diagonals, with
 /// N that go on with it; returns the way there from the edge, 0 where it would lead inwards. [L] Not along

@@ -47,7 +47,7 @@ void NodeContact::gather(const World& world) {
   if (shares_.empty()) return;
   for (const Touch& touch : touches_) {
     if (touch.due > 0) due_ = std::min(due_, touch.due);
-    // of one alone where bodies give way by more than the masses of their nodes tell
+    // of one alone where bodies yield by more than the masses of their nodes tell
     const ContactFrequency own{touch.k * touch.spread * std::max(touch.gives[0], touch.gives[1]), touch.node};
     stiffest_.take({touch.due > 0 ? ContactFrequency() : own, own});
   }

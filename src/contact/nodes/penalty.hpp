@@ -13,7 +13,7 @@
 namespace courant {
 
 /// Of a spring's force where the surface lies within the last step, or within the next: the impulses of a
-/// step are no longer those of the depth in its middle, and a bounce would give back 1 +- (omega dt)^2/4 of
+/// step are no longer those of the depth in its middle, and a bounce would return 1 +- (omega dt)^2/4 of
 /// its energy, by chance. With this factor the sums of leapfrog, v^2 + omega^2 d_n d_n+1, stay what they are
 /// outside, v^2. `speed`: out of the surface, in the half step before [L/T]; omega2: of the spring, with what
 /// acts beside it [1/T2]. [-]

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Solids of the world that stand behind each other, as they are at the start.
+/// Solids of the world that are behind each other, as they are at the start.
 class SolidStacks {
  public:
   explicit SolidStacks(const World& world);

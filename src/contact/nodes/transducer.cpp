@@ -32,7 +32,7 @@ const RegisterKeyword<T> transducer_keyword{contact_head<T>(
           {{"SURFA",
             &T::surfa,
             "-",
-            "what SURFATYP tells",
+            "of the kind SURFATYP",
             {},
             [](const T& card) { return space_of_surface(card.surfatyp); }},
            {"SURFB",
@@ -59,8 +59,8 @@ const RegisterKeyword<T> transducer_keyword{contact_head<T>(
                  {"VC", &T::vc, "M/LT2", "friction", no_effect},
                  {"VDC", &T::vdc, "-", "damping", no_effect},
                  {"PENCHK", &T::penchk, "-", "release of nodes", no_effect},
-                 {"BT", &T::bt, "T", "birth time: it tells all the time", no_output},
-                 {"DT", &T::dt, "T", "death time: it tells all the time", time_span}},
+                 {"BT", &T::bt, "T", "birth time: it is always active", no_output},
+                 {"DT", &T::dt, "T", "death time: it is always active", time_span}},
       .optional = true},
      {.fields = {{"SFSA", &T::sfsa, "-", "stiffness", no_effect},
                  {"SFSB", &T::sfsb, "-", "stiffness", no_effect},
@@ -153,12 +153,13 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
       deck.warning(
           diagnostics, card, "SURFA",
           fmt::format(
-              "{} of its {} nodes also belong to other parts: all of the force on them is told, also what "
-              "faces of those parts get, so that transducers side by side tell more than the contact has",
+              "{} of its {} nodes also belong to other parts: all of the force on them is included, also "
+              "what "
+              "faces of those parts get, so that adjacent transducers sum to more than the contact has",
               shared, nodes.size()),
           "name the parts that hang together as one SURFA");
     if (!options.with_particles.empty())
-      deck.error(diagnostics, card, "SURFA", "the forces of particles are not told by transducers",
+      deck.error(diagnostics, card, "SURFA", "the forces of particles are not in transducers",
                  "leave it out, or the contacts of particles: their own forces are in rcforc");
     if (between && std::any_of(others.begin(), others.end(), asks_for_edges))
       deck.warning(diagnostics, card, "SURFB", "the forces between edges of SURFA and SURFB are not in it",
@@ -166,12 +167,12 @@ void add_force_transducers(const Deck& deck, const Model& model, const NodeConta
     if (holds)
       deck.warning(
           diagnostics, card, "SURFA",
-          "the force with which contacts with _TIEBREAK hold nodes is not in it: rcforc tells that under "
+          "the force with which contacts with _TIEBREAK hold nodes is not in it: rcforc has that under "
           "a number of its own",
           "add both where they act on the same nodes");
     if (nodes.empty() || contacts.empty())
       deck.warning(diagnostics, card, "SURFA",
-                   contacts.empty() ? "there is no contact of elements whose force it could tell"
+                   contacts.empty() ? "there is no contact of elements whose force it could measure"
                                     : "it has no nodes of elements",
                    "leave it out");
     world.passes.add(

@@ -176,10 +176,9 @@ class TiedBuilder {
     if (share == 1) return 1;
     diagnostics_.warning(
         deck_.where(*first_card_),
-        fmt::format(
-            "{}: nodes stand so far beside small or light faces, which turn them about, that the step "
-            "is {:.3g} of that of the elements",
-            deck_.keyword(*first_card_), share),
+        fmt::format("{}: nodes are so far beside small or light faces, which rotate them, that the step "
+                    "is {:.3g} of that of the elements",
+                    deck_.keyword(*first_card_), share),
         "leave out nodes that are far from their faces, or make these larger or thicker");
     return share;
   }
@@ -189,7 +188,7 @@ class TiedBuilder {
     diagnostics_.error(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));  // of the whole
   }
 
-  /// Which nodes are next to which faces, with what is to be told of that.
+  /// Which nodes are next to which faces, with what is to be reported that.
   /// `of_elements`: SURFA names parts, whose elements need no faces. `later`: gets nodes and faces, which may
   /// be tied where they come to touch.
   bool find(const ContactCard& c, std::vector<Tie>& ties, bool of_elements = false,
@@ -268,7 +267,7 @@ class TiedBuilder {
     warn_of_hinges(c, hinges);
   }
 
-  /// Takes ties away for which `is` holds, and tells why.
+  /// Takes ties away for which `is` holds, and states why.
   template <class F>
   void drop(const ContactCard& c, std::vector<Tie>& ties, const F& is, std::string_view why,
             const char* hint) {

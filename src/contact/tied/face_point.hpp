@@ -1,5 +1,5 @@
 #pragma once
-// Where a tied node stands beside a face, and how forces there act on the corners.
+// Where a tied node is beside a face, and how forces there act on the corners.
 #include <array>
 #include <span>
 
@@ -7,8 +7,8 @@
 
 namespace courant {
 
-/// A place that goes with a face: x = sum_i N_i x_i + gap n, n the unit normal of the bilinear face at that
-/// point. It moves as a rigid body does where the face does so, whatever the gap.
+/// A position that goes with a face: x = sum_i N_i x_i + gap n, n the unit normal of the bilinear face at
+/// that point. It moves as a rigid body does where the face does so, whatever the gap.
 struct FacePoint {
   std::array<Index, 4> node{};  ///< corners, indices into World::nodes
   int corners = 4;
@@ -19,7 +19,7 @@ struct FacePoint {
 
 FacePoint face_point(const ContactFace& face, const Projection& at, Real gap);
 
-/// The place now. `x`: of World::nodes [L]
+/// The position now. `x`: of World::nodes [L]
 Vec place_of(const FacePoint& point, const Field<Real>& x);
 /// The unit normal of the face there. [-]
 Vec normal_of(const FacePoint& point, const Field<Real>& x);

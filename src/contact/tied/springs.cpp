@@ -263,7 +263,7 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
     const TieFace& face = *f->second;
     const Projection at = project(corners_of(face, x), face.corners, x.vec(node));
     constexpr Real rounding = 1e-6;
-    if (*std::min_element(at.N.begin(), at.N.end()) < -rounding) return;  // it may come to stand over a face
+    if (*std::min_element(at.N.begin(), at.N.end()) < -rounding) return;  // it may come to be over a face
     held_.insert(node);
     ties_.push_back(tie_at(*n->second, face, at, x));
     ties_.back().k *= later_.scale;
@@ -284,7 +284,7 @@ class StickingSprings : public TiedSprings, public TouchHolder, public TimeLimit
     known_ = true;
     return limit_;
   }
-  /// Those that came later stand in the state.
+  /// Those that came later are in the state.
   void keep(Archive& archive) override {
     if (grown_) fit();
     grown_ = false;

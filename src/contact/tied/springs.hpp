@@ -1,5 +1,5 @@
 #pragma once
-// Nodes that springs hold at the places of faces to which they are tied.
+// Nodes that springs hold at the positions of faces to which they are tied.
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,7 +41,7 @@ struct LaterTies {
   WallBodies bodies{};
 };
 
-/// Adds springs of stiffness Tie::k between nodes and their places on faces. A spring ends with its face,
+/// Adds springs of stiffness Tie::k between nodes and their positions on faces. A spring ends with its face,
 /// too; what it stores then is dissipated.
 void add_springs(TiedSpringsLaw law, std::vector<Tie> ties, World& world);
 /// With others that come later.

@@ -40,7 +40,7 @@ struct Tie {
 std::vector<Tie> find_ties(const std::vector<TieNode>& nodes, const std::vector<TieFace>& faces, Real given,
                            const Field<Real>& x, std::vector<Index>* corners_near = nullptr);
 
-/// Of a node at a place over a face.
+/// Of a node at a position over a face.
 Tie tie_at(const TieNode& node, const TieFace& face, const Projection& at, const Field<Real>& x);
 
 /// The parts of ties in each node of the world, so that forces are gathered in a fixed order.

@@ -24,7 +24,7 @@ namespace {
 
 using Quaternion = Eigen::Quaterniond;
 /// Beams of a part: they turn with their ends and nodes as far as these are rigid, and what is left deforms
-/// them. Theory: docs/theory.md.
+/// them. Theory: docs/theory_structures.md.
 class BeamForces : public Material,
                    public TimeLimit,
                    public EnergyTerm,
@@ -327,7 +327,7 @@ class BeamForces : public Material,
     std::array<std::array<Real, block_size>, 3> rate{}, unused{};
     std::array<Real, block_size> across{}, none{};
     std::array<Real, block_size> sound{};
-    std::array<Six, block_size> middle{};  // pull, torsion, moments about s and t, shear along s and t
+    std::array<Six, block_size> middle{};  // axial force, torsion, moments about s and t, shear along s and t
     PointBlock points;
     points.count = n, points.dt = clock.dt_old, points.sound_speed = sound.data();
     points.rate = {rate[0].data(), nullptr, nullptr, rate[1].data(), nullptr, rate[2].data()};
@@ -476,7 +476,7 @@ class BeamForces : public Material,
   std::shared_ptr<Erosion> erosion_;                 ///< null: nothing fails
   int plastic_ = -1, fails_ = -1;  ///< of a point's numbers the plastic strain, and what it fails by
   std::vector<std::string> why_;   ///< welds fail in this step
-  std::vector<char> folded_;       ///< ends turned so far that nothing tells which way
+  std::vector<char> folded_;       ///< ends turned so far that nothing states which way
   Field<Real>* shown_pull_ = nullptr;
   std::array<Field<Real>*, 2> shown_moment_{};
   std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;

@@ -124,7 +124,8 @@ Real bent_step(const TurnedEnds& turned, Real thickness2) {
   return 1 / std::sqrt(std::max(stocky, twisted));
 }
 
-// P = pull dL/dt + sum M_c . (w_c - w), w of the frame: w_s = -t . v/L, w_t = s . v/L, w_r by leads and lean.
+// P = axial force dL/dt + sum M_c . (w_c - w), w of the frame: w_s = -t . v/L, w_t = s . v/L, w_r by leads
+// and lean.
 NodalForces nodal_forces(const TurnedEnds& turned, const BeamReleases* releases, Real pull,
                          const std::array<Vec, 2>& moment) {
   const Matrix& axes = turned.frame.axes;

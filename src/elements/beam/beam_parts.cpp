@@ -160,7 +160,7 @@ class BeamReader {
         m = *whole;
       } else if (m.A = beam.measures[0] > 0 ? beam.measures[0] : s.a; !(m.A > 0)) {
         error(s, "A", fmt::format("beam {} has no area", beam.id),
-              "measures stand in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
+              "measures are in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
         continue;
       }
       out.beams.push_back(&beam), out.measures.push_back(m), out.axes.push_back(Matrix::Identity());
@@ -182,7 +182,7 @@ class BeamReader {
              "becomes 2");
     else if (s.elform > 3 && !s.weld())
       deck_.warning(diagnostics_, s, "ELFORM",
-                    fmt::format("{} is not there: {} is used in its place", s.elform, s.used()),
+                    fmt::format("{} is not supported: {} is used instead", s.elform, s.used()),
                     "the same formulation by its own number says the same without this warning");
     if (s.used() != 1 && s.rule < 0)
       deck_.warning(diagnostics_, s, "QR/IRID", fmt::format("has no effect with ELFORM {}", s.elform),
@@ -214,10 +214,10 @@ class BeamReader {
                    "a tube has points of its own, beside a rule of *INTEGRATION_BEAM",
                    "use ELFORM 1 and CST 2, or 0");
     if (rule.icst > 0 && (rule.nip > 0 || rule.ra > 0))
-      return error(rule, "NIP", "points and RA stand beside the standard section ICST", "give one of them");
+      return error(rule, "NIP", "points and RA are given with the standard section ICST", "give one of them");
     if (rule.icst > 0) return read_standard(rule);
     if (rule.nip == 0 || static_cast<int>(rule.s.size()) != rule.nip)
-      return error(rule, "NIP", fmt::format("{} points stand here, not {}", rule.s.size(), rule.nip),
+      return error(rule, "NIP", fmt::format("{} points are given, not {}", rule.s.size(), rule.nip),
                    "give each point a card, or ICST a standard section");
     if (!(rule.ra > 0))
       return error(rule, "RA", "the section has no area", "give its area over that of TS1 x TT1");
@@ -342,7 +342,7 @@ class BeamReader {
           : m.A > 0                    ? "ISS"
                                        : "A",
           fmt::format("beam {} has no area, or no second moment of it", beam.id),
-          "measures stand in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
+          "measures are in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
     return std::nullopt;
   }
 

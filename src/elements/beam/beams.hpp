@@ -33,7 +33,7 @@ struct BeamMeasures {
   Real A = 0, Iss = 0, Itt = 0, J = 0;  ///< area [L2], second moments about s and t, of torsion [L4]
   Real shear_area = 0;                  ///< SA, 0: no shear strain; integrated: SHRF A [L2]
   Real half_s = 0, half_t = 0;          ///< to which points belong [L]
-  /// The node line is no principal axis: pull bends it, and bending about s and t go together.
+  /// The node line is no principal axis: axial force bends it, and bending about s and t go together.
   bool coupled = false;
   /// Square of the thickness of a rectangle with these over its length. [-]
   Real thickness2(Real L) const { return 12 * std::max(Iss, Itt) / (A * L * L); }

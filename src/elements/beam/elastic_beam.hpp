@@ -6,8 +6,8 @@
 
 namespace courant {
 
-/// By which a beam deforms, and what answers: elongation and pull, twist and torsion, rotations of end 1 and
-/// 2 about s, about t, against the line between the ends, and the moments that hold them.
+/// By which a beam deforms, and what answers: elongation and axial force, twist and torsion, rotations of end
+/// 1 and 2 about s, about t, against the line between the ends, and the moments that hold them.
 enum Part6 { elongation, twist, turn1_s, turn2_s, turn1_t, turn2_t, count6 };
 using Six = std::array<Real, count6>;
 
@@ -18,10 +18,10 @@ struct ElasticBeam {
 };
 
 /// Linear in elongation, twist and rotations of the ends, of the beam of Euler and Bernoulli, or with a shear
-/// area of Timoshenko. docs/theory.md
+/// area of Timoshenko. docs/theory_structures.md
 Six resultant_end_forces(const ElasticBeam& beam, const BeamMeasures& m, const Six& d);
-/// The same where no moment passes hinges, and no pull an end that slides: the ends of the beam turn and move
-/// there as they would alone.
+/// The same where no moment passes hinges, and no axial force an end that slides: the ends of the beam turn
+/// and move there as they would alone.
 Six released_end_forces(const ElasticBeam& beam, const BeamMeasures& m, const BeamReleases& releases,
                         const Six& d);
 /// The same of a beam with points in the section of its middle, or a truss.

@@ -10,9 +10,10 @@ namespace courant {
 namespace {
 
 struct DatabaseSwforc : HistoryInterval {};
-const RegisterKeyword<DatabaseSwforc> database_swforc{history_interval<DatabaseSwforc>(
-    "DATABASE_SWFORC",
-    "interval of swforc: pull, shear, bending moment and torsion of each weld of beams, and when it failed")};
+const RegisterKeyword<DatabaseSwforc> database_swforc{
+    history_interval<DatabaseSwforc>("DATABASE_SWFORC",
+                                     "interval of swforc: axial force, shear, bending moment and torsion of "
+                                     "each weld of beams, and when it failed")};
 
 std::vector<WeldForce> welds_of(const World& world) {
   std::vector<WeldForce> out;

@@ -11,7 +11,7 @@
 
 namespace courant {
 
-/// Of a section: pull, torsion, moments about s and t, shear forces along s and t.
+/// Of a section: axial force, torsion, moments about s and t, shear forces along s and t.
 using SectionForces = std::array<Real, 6>;  ///< [ML/T2], [ML2/T2]
 
 /// What the section of a weld carries.
@@ -20,8 +20,8 @@ struct WeldStrength {
   int filter = 0;        ///< NF: steps over which forces are averaged; 0, 1: none
   Real dt = 0;           ///< DT: the step that welds get by mass at the start; 0: none [T]
   bool fails() const;
-  /// Sum of the squares of forces over what the section carries, of pull only where it is > 0; the weld
-  /// fails at 1. *MAT_SPOTWELD. [-]
+  /// Sum of the squares of forces over what the section carries, of axial force only where it is > 0; the
+  /// weld fails at 1. *MAT_SPOTWELD. [-]
   Real used(const SectionForces& forces) const;
 };
 WeldStrength weld_strength(const MatSpotweld& card);

@@ -25,7 +25,7 @@ class PartMasses {
 
   void add(const PartMassCard& card, const std::vector<Index>& parts, const char* field, bool by_mass) {
     if (card.addmass > 0 && card.finmass > 0)
-      return error(card, "FINMASS", "stands beside ADDMASS", "give one of them");
+      return error(card, "FINMASS", "is given with ADDMASS", "give one of them");
     if (!check_parts(card, parts, field, by_mass)) return;
     std::map<Index, Real> share;  // of the nodes: area, volume or mass
     Real all = 0, mass = 0;

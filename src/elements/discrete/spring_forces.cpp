@@ -156,7 +156,7 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
 };
 
 /// The step of all springs. They have no mass: a node or body shares its inverse mass g out among the springs
-/// s on it, by what they ask for. Forces at t^n of places there and of velocities half a step before are
+/// s on it, by what they ask for. Forces at t^n of positions there and of velocities half a step before are
 /// stable as long as for each spring
 ///   sum over its ends of sum_s g (k_s dt^2/4 + c_s dt/2) <= f^2,
 /// f = TSSFAC where springs are alone. Nodes of other elements, whose step may take f^2 of it already, leave

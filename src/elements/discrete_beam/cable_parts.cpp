@@ -80,7 +80,7 @@ class CableReader {
     if (law.held_until > 0 && relaxation_of(deck_, model_, false, unused).asked) {
       error(card, "TMAXF0",
             "a tension that is held or rises is not supported in a deck that is brought to rest first",
-            "leave TMAXF0 and TRAMP blank: the relaxation brings F0 and what it pulls at to rest");
+            "leave TMAXF0 and TRAMP blank: the relaxation brings F0 and its load to rest");
       return std::nullopt;
     }
     return law;
@@ -127,7 +127,7 @@ class CableReader {
       if (beam.released[k] != 0)
         return error(beam.card, std::array{"RT1", "RR1", "RT2", "RR2"}[k],
                      fmt::format("the ends of cable {} cannot be released", beam.id),
-                     "cables transmit their pull alone: leave the field blank");
+                     "cables transmit tension only: leave the field blank");
     const auto own = [&](std::size_t k, Real of_section) {
       return beam.measures[k] != 0 ? beam.measures[k] : of_section;
     };

@@ -1,5 +1,5 @@
 #pragma once
-// Cables: discrete beams (ELFORM 6) with *MAT_CABLE_DISCRETE_BEAM, which pull and do nothing else.
+// Cables: discrete beams (ELFORM 6) with *MAT_CABLE_DISCRETE_BEAM, which axial force and do nothing else.
 #include <limits>
 #include <memory>
 #include <vector>

@@ -19,7 +19,7 @@ namespace {
 using Quaternion = Eigen::Quaterniond;
 
 /// Discrete beams of a part: displacements and angles along the triad since the last motion, the laws, forces
-/// and moments on the ends. Theory: docs/theory.md.
+/// and moments on the ends. Theory: docs/theory_structures.md.
 class DiscreteBeamForces : public TwoNodeForces {
  public:
   DiscreteBeamForces(const DiscreteBeamPart& part, ElementGroup& group, Id part_id, Real tssfac,

@@ -149,7 +149,7 @@ class DiscreteBeamReader {
             "define it with *DEFINE_COORDINATE_SYSTEM");
     else if (system->second.moves)
       error(card, field, fmt::format("system {} turns with its nodes", cid),
-            "SCOOR tells with which end the axes turn: give a system that stays");
+            "SCOOR states with which end the axes rotate: give a fixed system");
     else
       return triad.line ? turned_onto(line, system->second.axes) : system->second.axes;
     return std::nullopt;

@@ -67,7 +67,7 @@ Vec CrossSection::CutPoint::at(const World& world) const {
   return world.nodes.x.vec(a) + share * (world.nodes.x.vec(b) - world.nodes.x.vec(a));
 }
 
-/// `counts`: of nodes; `share`: of the way from a node that counts to one that does not, where the cut is.
+/// `counts`: of nodes; `share`: of the path from a node that counts to one that does not, where the cut is.
 template <class Side, class Share>
 void CrossSection::add(const ReportedElement& element, const World& world, const Side& counts,
                        const Share& share) {

@@ -40,10 +40,10 @@ class CrossSection {
   Id id = 0;
   std::string title{};
   Id system = 0;                     ///< of the axes below; 0: global
-  Matrix axes = Matrix::Identity();  ///< as columns, in which force and moment are told
+  Matrix axes = Matrix::Identity();  ///< as columns, in which force and moment are reported
 
  private:
-  /// A point on the edge between two nodes, at a share of the way.
+  /// A point on the edge between two nodes, at a share of the path.
   struct CutPoint {
     Index a, b;
     Real share;

@@ -1,4 +1,4 @@
-// How far nodes are from their places in the deck, in the field files of scenes with elements.
+// How far nodes are from their positions in the deck, in the field files of scenes with elements.
 #include <unordered_map>
 #include <vector>
 

@@ -30,7 +30,7 @@ const ReportedElement* ElementChoice::find(const Entry& card, const char* field,
     deck_.warning(
         diagnostics_, card, field,
         fmt::format("{} {} belongs to a rigid body or is of *MAT_NULL, so that it has no stress: {} "
-                    "does not tell of it",
+                    "does not include it",
                     element_word(kind), id, of));
   else
     deck_.error(diagnostics_, card, field, fmt::format("{} {} does not exist", element_word(kind), id));
@@ -53,7 +53,7 @@ std::vector<ReportedElement> ElementChoice::set(const Entry& card, const char* f
     deck_.warning(
         diagnostics_, card, field,
         fmt::format("{} of the {}s of set {} belong to rigid bodies or are of *MAT_NULL, so that they "
-                    "have no stress: {} does not tell of them",
+                    "have no stress: {} does not include them",
                     rigid, element_word(kind), id, of));
   return out;
 }

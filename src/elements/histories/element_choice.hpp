@@ -1,5 +1,5 @@
 #pragma once
-// Finding the elements that histories and cross sections are to tell of.
+// Finding the elements that histories and cross sections are to report.
 #include <map>
 #include <string>
 #include <utility>
@@ -28,7 +28,7 @@ class ElementChoice {
   /// The element with this id; null with an error where there is none, and with a warning that `of` does not
   /// tell of it where it is rigid.
   const ReportedElement* find(const Entry& card, const char* field, ElementKind kind, Id id, const char* of);
-  /// The same of the members of a set; those that are rigid are told once.
+  /// The same of the members of a set; those that are rigid are reported once.
   std::vector<ReportedElement> set(const Entry& card, const char* field, ElementKind kind, Id id,
                                    const char* of);
   /// All elements that deform, in the order of groups.

@@ -154,7 +154,7 @@ void build_point_fields(const Deck& deck, const Model& model, World& world, Diag
   }
   if (shells && maxint < 0)
     deck.warning(diagnostics, *card, "MAXINT",
-                 "points in the plane of shells are not told apart: of each layer their mean is written");
+                 "points in the plane of shells are not distinguished: of each layer their mean is written");
 }
 const RegisterAddition point_fields{"fields of integration points", build_point_fields};
 

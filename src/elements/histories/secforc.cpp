@@ -124,7 +124,7 @@ class SectionReader {
     return true;
   }
 
-  /// Those without an id get the place that they have among all.
+  /// Those without an id get the position that they have among all.
   void number() {
     std::vector<std::size_t> order(cards_.size());
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;

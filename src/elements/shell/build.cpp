@@ -139,7 +139,7 @@ class ShellReader {
       deck_.warning(
           diagnostics_, s, "ELFORM",
           fmt::format("{} ({}) is not there for shells that deform, as those of part {}: {} is used "
-                      "in its place",
+                      "instead",
                       elform, like->second.name, part.id, like->second.used),
           fmt::format("{} says the same without this warning", like->second.used == belytschko_tsay
                                                                    ? "2 (Belytschko-Tsay)"
@@ -173,7 +173,7 @@ class ShellReader {
     if (formulation(s) == full_membrane)
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("9 (membranes of 2 x 2 points) is not there for shells that deform, as those "
-                                "of part {}: 5, of one point with hourglass control, is used in its place",
+                                "of part {}: 5, of one point with hourglass control, is used instead",
                                 part.id),
                     "5 says the same without this warning");
     if (s.irid != 0)
@@ -237,12 +237,12 @@ class ShellReader {
     };
     if (c.esort == 2)
       deck_.warning(diagnostics_, c, "ESORT",
-                    "2 asks for discrete Kirchhoff triangles (17): 4 is used in their place",
+                    "2 asks for discrete Kirchhoff triangles (17): 4 is used instead",
                     "1 says the same without this warning");
     refuse("ESORT", c.esort < 0 || c.esort > 2, c.esort, "triangles are of formulation 4 (0 and 1)");
     refuse("ISTUPD", c.istupd < 0 || c.istupd > 4, c.istupd,
            "the thickness stays (0), or follows all of the strain (1) or its plastic part (4)");
-    refuse("BWC", c.bwc != 1 && c.bwc != 2, c.bwc, "shells of ELFORM 2 heed their warp (1) or do not (2)");
+    refuse("BWC", c.bwc != 1 && c.bwc != 2, c.bwc, "shells of ELFORM 2 include their warp (1) or do not (2)");
     refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
     refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
     refuse("INTGRD", c.intgrd != 0 && c.intgrd != 1, c.intgrd, "points are of Gauss (0) or Lobatto (1)");

@@ -149,12 +149,11 @@ class LayerDirections {
   void refuse(Index e) {
     if (told_) return;
     told_ = true;
-    diagnostics_.error(
-        named_.where,
-        fmt::format("shell {} of part {} stands across the direction that AOPT of its material "
-                    "gives, so that none follows for it",
-                    group_.id[e], named_.id),
-        "choose another AOPT, A or V");
+    diagnostics_.error(named_.where,
+                       fmt::format("shell {} of part {} is normal to the direction that AOPT of its material "
+                                   "gives, so that none follows for it",
+                                   group_.id[e], named_.id),
+                       "choose another AOPT, A or V");
   }
 
   const Model& model_;

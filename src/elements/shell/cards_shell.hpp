@@ -4,7 +4,7 @@
 
 namespace courant {
 
-/// *CONTROL_ACCURACY: INN tells how the axes of shells lie in them.
+/// *CONTROL_ACCURACY: INN states how the axes of shells lie in them.
 struct ControlAccuracy : ControlAccuracyFields {
   bool invariant_shells() const { return inn == 2 || inn == 4 || inn == -2 || inn == -4; }
 };

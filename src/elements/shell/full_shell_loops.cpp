@@ -4,7 +4,8 @@
 // The shell of 2 x 2 points in its plane (ELFORM 16) on a block of elements. Of any nodal value
 // v = b0 + b1 xi + b2 eta + b3 xi eta; forces come out along these, g0 to g3, and from there on the corners.
 // Membrane and curvature are those of the bilinear map; in-plane shear is that of the middle, transverse
-// shear is interpolated between the middles of the sides (Dvorkin & Bathe 1984). Theory: docs/theory.md.
+// shear is interpolated between the middles of the sides (Dvorkin & Bathe 1984). Theory:
+// docs/theory_structures.md.
 #include "elements/shell/quadrilateral_modes.hpp"
 #include "elements/shell/shell_loops.hpp"
 
@@ -34,7 +35,7 @@ COURANT_INLINE SideShear side_shear(const Sides& s, const Modes& v, const Triple
           v.m[1].z - v.m[2].z + s.xb * (y - ys) - s.yb * (x - xs),
           v.m[1].z + v.m[2].z + s.xd * (y + ys) - s.yd * (x + xs)};
 }
-/// Twice D xz and D yz at a place.
+/// Twice D xz and D yz at a position.
 struct Shear {
   Native xz, yz;
 };

@@ -14,7 +14,7 @@ namespace courant {
 /// Hourglass control and bulk viscosity of the shells of a part: *HOURGLASS where it names one, else
 /// *CONTROL_HOURGLASS. With one point in the plane IHQ 1 to 3 are viscous, 4 and 5 a stiffness, without
 /// either viscous with 0.1; with 2 x 2 points 8, or none of these keywords, gives warped ones a stiffness
-/// against drilling, other IHQ none; so do those of one point that heed their warp, whatever IHQ. Bulk
+/// against drilling, other IHQ none; so do those of one point with warp, whatever IHQ. Bulk
 /// viscosity acts on shells only where TYPE of *CONTROL_BULK_VISCOSITY asks for it.
 class ShellHourglassReader {
  public:

@@ -116,8 +116,8 @@ bool LayerReader::follow_rule(const ModelPart& part, const SectionShell& s, Shel
                  fmt::format("up to {} points", ShellState::most_points));
   if (s.icomp == 1 && s.layers() != rule.nip)
     return error(s, "NIP",
-                 fmt::format("rule {} has {} points, and NIP = {} tells how many angles stand here",
-                             rule.irid, rule.nip, s.layers()),
+                 fmt::format("rule {} has {} points, and NIP = {} is the number of angles given", rule.irid,
+                             rule.nip, s.layers()),
                  "give both the same number");
   if (rule.esop == 0) return take_points(rule, part, out, mids);
   for (int k = 0; k < rule.nip; ++k)
@@ -129,7 +129,7 @@ bool LayerReader::follow_rule(const ModelPart& part, const SectionShell& s, Shel
 bool LayerReader::take_points(const IntegrationShell& rule, const ModelPart& part, ShellPart& out,
                               std::vector<Id>& mids) {
   if (static_cast<int>(rule.s.size()) != rule.nip)
-    return error(rule, "NIP", fmt::format("{} points stand here, not {}", rule.s.size(), rule.nip),
+    return error(rule, "NIP", fmt::format("{} points are given, not {}", rule.s.size(), rule.nip),
                  "give each point a card");
   const Real sum = std::accumulate(rule.wf.begin(), rule.wf.end(), Real(0));
   constexpr Real close = 1e-3;  // weights are written with few digits

@@ -11,7 +11,7 @@
 
 namespace courant {
 
-/// What stands at the points through the thickness of a part: points of Gauss or Lobatto of one material,
+/// What is at the points through the thickness of a part: points of Gauss or Lobatto of one material,
 /// with angles of their own by ICOMP 1; those of an *INTEGRATION_SHELL; the middles of the layers of a
 /// *PART_COMPOSITE or of an *ELEMENT_SHELL_COMPOSITE.
 class LayerReader {
@@ -20,7 +20,7 @@ class LayerReader {
   /// Fills points, laws and angles. False, perhaps without a message where others give it: a material is not
   /// there, or shells cannot have it.
   bool read(const ModelPart& part, const SectionShell& section, bool lobatto, ShellPart& out);
-  /// The same of shells with layers of their own, which stand in the place of those of their part.
+  /// The same of shells with layers of their own, which stand instead of those of their part.
   bool read(const ModelPart& part, const ModelLayup& layup, ShellPart& out);
   /// Null: shells cannot have it.
   std::shared_ptr<StrengthLaw> law_of(Id mid) const;

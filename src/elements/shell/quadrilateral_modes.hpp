@@ -1,5 +1,5 @@
 #pragma once
-// What loops over quadrilaterals that heed their warp have alike, in the files that are compiled once for
+// What loops over quadrilaterals with warp have alike, in the files that are compiled once for
 // each instruction set. Of any nodal value v = b0 + b1 xi + b2 eta + b3 xi eta; forces come out along these,
 // g0 to g3, and from there on the corners.
 #include "elements/shell/shell_geometry.hpp"
@@ -17,7 +17,7 @@ COURANT_INLINE Modes modes_of(const Flat& f, const Triple d[3]) {
   return {{0.25 * in_axes(f, d[1] - d[0]), -0.25 * in_axes(f, d[0] + d[1]), 0.25 * in_axes(f, d[2])}};
 }
 
-/// Solves (sum |a|^2 1 - a a^T) w = L over the modes a of the places: how a quadrilateral turns, over a
+/// Solves (sum |a|^2 1 - a a^T) w = L over the modes a of the positions: how a quadrilateral turns, over a
 /// fourth of its second moments.
 COURANT_INLINE Triple turn_of(const Modes& a, const Triple& L) {
   Native xx = all(0), yy = all(0), zz = all(0), xy = all(0), yz = all(0), zx = all(0);
@@ -32,7 +32,7 @@ COURANT_INLINE Triple turn_of(const Modes& a, const Triple& L) {
                           czx * L.x + cyz * L.y + czz * L.z};
 }
 
-/// Slopes of the map at a place of the plane.
+/// Slopes of the map at a position of the plane.
 struct Map {
   Native xs, xt, ys, yt, J;  ///< of x and y along xi and eta
   COURANT_INLINE Map(const Modes& a, Real s, Real t) {
@@ -70,7 +70,7 @@ COURANT_INLINE Native at_corner(const Native b[3], Native b0, int c) {
   return b0 + xi[c] * b[0] + eta[c] * b[1] + (xi[c] * eta[c]) * b[2];
 }
 
-/// P per slope x and R per slope y of a value, at a place.
+/// P per slope x and R per slope y of a value, at a position.
 COURANT_INLINE void add_slopes(const Map& m, Native P, Native R, Real s, Real t, Native g[3]) {
   const Native along = P * m.yt - R * m.xt, across = R * m.xs - P * m.ys;
   g[0] += along, g[1] += across, g[2] += t * along + s * across;

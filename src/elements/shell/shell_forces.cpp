@@ -350,7 +350,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
 
   /// A free patch of few elements is stable only below what a mesh of many is: as for solids, the step keeps
-  /// below 2 over the largest frequency of the group, whose rotations stand behind the places of its nodes.
+  /// below 2 over the largest frequency of the group, whose rotations are behind the positions of its nodes.
   void limit_to_frequency(const std::vector<std::array<bool, 3>>& held, World& world) {
     constexpr Real small = 1e-7;  // strains, within which all is linear
     const Index n = group_.size();

@@ -1,7 +1,7 @@
 #pragma once
 // What the loops of all shells have alike, for the files that are compiled once for each instruction set. A
-// register holds as many elements as it has room for; what is behind the last element of a block repeats that
-// one and is not stored.
+// register holds as many elements as it has space for; what is behind the last element of a block repeats
+// that one and is not stored.
 #include "elements/native_math.hpp"
 #include "elements/shell/shell_loops.hpp"
 
@@ -130,7 +130,7 @@ inline void heights_at(const ShellLoops::Block& block, int point, const ShellSta
   for (Index i = 0; i < block.count; ++i) z[i] += 0.5 * offset[i] * t[i];
 }
 
-/// N, M and Q of place q of `places` in the plane.
+/// N, M and Q of position q of `places` in the plane.
 COURANT_INLINE void resultants_of(Index first, Index n, int q, int places, Real factor, Native t,
                                   const ShellState& state, Native R[8]) {
   for (int m = 0; m < 8; ++m) R[m] = all(0);
@@ -191,7 +191,7 @@ COURANT_INLINE Native bulk_viscosity(Index first, Index n, Index k, Real dt, Nat
   }
   return q;
 }
-/// Keeps the differences of places for the forces, and takes them to the middle of the step.
+/// Keeps the differences of positions for the forces, and takes them to the middle of the step.
 template <int corners>
 COURANT_INLINE void keep_places(Index k, Real dt, const Triple dv[3], Triple d[3], ShellScratch& s) {
   constexpr int modes = corners == quad ? 3 : 2;

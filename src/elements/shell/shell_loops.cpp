@@ -1,5 +1,5 @@
 // Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
-// files. A register holds as many elements as it has room for; what is behind the last element of a block
+// files. A register holds as many elements as it has space for; what is behind the last element of a block
 // repeats that one and is not stored.
 #include "elements/shell/shell_loops.hpp"
 

@@ -98,7 +98,7 @@ class ShellReport : public Pass, public ElementReporter, public FieldFiller {
       }
     }
   }
-  /// Over the places in the plane; component k is not zz.
+  /// Over the positions in the plane; component k is not zz.
   Real mean_of_layer(std::size_t layer, int k, Index e) const {
     Real sum = 0;
     for (std::size_t q = 0; q < places_; ++q)

@@ -27,7 +27,7 @@ struct ShellPart {
   std::vector<std::shared_ptr<StrengthLaw>> laws{};
   std::vector<Real> angle{};
   bool fails_with_all = false;  ///< FAILOPT 1: not by the points that can fail alone
-  bool faulty = false;          ///< its material has a law, and faults that are told
+  bool faulty = false;          ///< its material has a law, and faults that are reported
   DistortedShells distorted = DistortedShells::stay;
   bool thins_by_flow = false;  ///< ISTUPD 4: with `control.thins`
   ShellControl control;
@@ -73,7 +73,7 @@ std::vector<ShellPart> find_shell_parts(const Deck& deck, const Model& model, Di
 
 /// Adds groups of elements, and the rotations of their nodes (state/shared_fields.hpp) with their inertia.
 /// The masses of the nodes are build_segments' business. `node_of`: the node of the world of each node of the
-/// model; world.segments must stand in the order of Model::shells. Warns of warped shells.
+/// model; world.segments must be in the order of Model::shells. Warns of warped shells.
 void build_shells(const Model& model, const std::vector<ShellPart>& parts, const std::vector<Index>& node_of,
                   World& world, Diagnostics& diagnostics);
 
@@ -81,9 +81,9 @@ void build_shells(const Model& model, const std::vector<ShellPart>& parts, const
 Field<Real>& corner_inertia_of(const ElementGroup& group);
 
 /// Stress at the points of shells, in the axes of the element, zz = 0 left out. Point p is layer p % layers
-/// at place p / layers in the plane. [M/LT2]
+/// at position p / layers in the plane. [M/LT2]
 Field<Real>& layer_stress_of(const ElementGroup& group, int points);
-/// Where component k of point p stands there: xx yy xy yz zx, k = 0, 1, 3, 4, 5.
+/// Where component k of point p is there: xx yy xy yz zx, k = 0, 1, 3, 4, 5.
 constexpr int at_layer(int point, int k) {
   return 5 * point + k - (k > 2);
 }

@@ -1,7 +1,7 @@
 // Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
 // files.
 //
-// The shell of one point in its plane (ELFORM 2) that heeds its warp (BWC 1), on a block of elements: what
+// The shell of one point in its plane (ELFORM 2) that respects its warp (BWC 1), on a block of elements: what
 // shell_loops.cpp does, of velocities and forces without their rigid part, with a small stiffness against
 // drilling, through which moments pass from facet to facet.
 #include "elements/shell/one_point.hpp"

@@ -115,7 +115,7 @@ const RegisterKeyword<S> section_shell{
                 {"T2", &S::t2, "L", "thickness at corner 2, 0: T1", {.check = Check::not_negative}},
                 {"T3", &S::t3, "L", "thickness at corner 3, 0: T1", {.check = Check::not_negative}},
                 {"T4", &S::t4, "L", "thickness at corner 4, 0: T1", {.check = Check::not_negative}},
-                {"NLOC", &S::nloc, "-", "place of the nodes: 1 upper face, -1 lower, 0 middle"},
+                {"NLOC", &S::nloc, "-", "position of the nodes: 1 upper face, -1 lower, 0 middle"},
                 {"MAREA", &S::marea, "M/L2", "mass per area besides RO t", {.check = Check::not_negative}},
                 {"IDOF", &S::idof, "-", "thickness strain: not 3"},
                 {"EDGSET", &S::edgset, "-", "edge set of seat belts", {.honour = no}}}},

@@ -46,7 +46,7 @@ COURANT_INLINE void gather_of(Index first, Index n, Index k, const SolidMesh& me
   store(scratch.compression + k, 64.0 * load(state.V0 + first, n) / volume64(a) - 1.0);
 }
 
-/// Half a step's change of volume at the rates sum b_I.v_I with the places of `later` steps from its end.
+/// Half a step's change of volume at the rates sum b_I.v_I with the positions of `later` steps from its end.
 COURANT_INLINE Native opened_at(Index k, Real dt, Real later, const PointScratch& scratch) {
   Triple a[7];
   for (int m = 0; m < 7; ++m)

@@ -1,5 +1,5 @@
 // Compiled once for each instruction set; see docs/architecture.md. Nothing here may be shared with other
-// files. A register holds as many elements as it has room for; what is behind the last element of a block
+// files. A register holds as many elements as it has space for; what is behind the last element of a block
 // repeats that one and is not stored.
 //
 // The hexahedron with one point (ELFORM 1), and what becomes of it where nodes repeat.
@@ -20,7 +20,7 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-/// 64 dV/dt where the modes of places have these derivatives.
+/// 64 dV/dt where the modes of positions have these derivatives.
 COURANT_INLINE Native opening64(const Native v[3][7], const Geometry& at) {
   Native out = v[0][0] * at.g[0].x + v[1][0] * at.g[0].y + v[2][0] * at.g[0].z;
   for (int m = 1; m < 6; ++m) out += v[0][m] * at.g[m].x + v[1][m] * at.g[m].y + v[2][m] * at.g[m].z;
@@ -41,7 +41,7 @@ COURANT_INLINE Native mean_stress_otherwise(int end, Index k, Real dt, const Nat
   return (1.0 / 3) * (s[0] + s[1] + s[2]) * (load(scratch.opened[end] + k) - middle);
 }
 
-/// Rates of the modes of hourglass control that linear fields leave alone, in the place of the plain ones.
+/// Rates of the modes of hourglass control that linear fields leave alone, instead of the plain ones.
 /// With the geometry in the middle of the step: that at its end would strain what turns, and a stiffness then
 /// makes energy without bound.
 COURANT_INLINE void orthogonal_rates(const Triple middle[7], const Native v[3][7], const Triple L[3],

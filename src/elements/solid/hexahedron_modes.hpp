@@ -65,7 +65,7 @@ COURANT_INLINE Native thickness(const Triple a[7], Native V64) {
   return 0.015625 * V64 / largest_face(a);
 }
 
-/// Modes of places and velocities, kept for the forces, too.
+/// Modes of positions and velocities, kept for the forces, too.
 COURANT_INLINE void gather_modes(const SolidMesh& mesh, Index first, Index n, Index k, SolidScratch& scratch,
                                  Native x[3][7], Native v[3][7]) {
   Native px[3][8], pv[3][8];

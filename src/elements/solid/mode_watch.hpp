@@ -8,14 +8,14 @@
 
 namespace courant {
 
-/// Of the displacements u_i by the places x_a, x_b in the material, turned back with the element: columns xx
-/// yy zz xy yz zx. [1/L]
+/// Of the displacements u_i by the positions x_a, x_b in the material, turned back with the element: columns
+/// xx yy zz xy yz zx. [1/L]
 using SecondGradient = Eigen::Matrix<Real, 3, 6>;
 /// Of the modes of bending and twisting of a brick. `start` and `now`: its corners in LS-DYNA's order;
 /// homogeneous deformation and rigid motion have none.
 SecondGradient second_gradient(const std::array<Vec, 8>& start, const std::array<Vec, 8>& now);
-/// What that would cost in the material, by the assumed strains of IHQ 6 with QM 1 (docs/theory.md, Solids).
-/// [ML2/T2]
+/// What that would cost in the material, by the assumed strains of IHQ 6 with QM 1
+/// (docs/theory_structures.md, Hourglass control). [ML2/T2]
 Real bending_energy(const std::array<Vec, 8>& start, const SecondGradient& gradient,
                     const SolidControl& material);
 

@@ -12,7 +12,7 @@ namespace courant {
 /// After Bonet & Burton (1998, Commun. Numer. Meth. Eng. 14, 437), by work. With sums over the elements e of
 /// a part at node a and means over the four nodes of an element,
 ///   J_a = sum_e V_e / sum_e V0_e,  J_e' = mean_a J_a,
-/// and the law sees J_e' and its rate in place of those of the element. Of its mean stress -p_e, with the
+/// and the law sees J_e' and its rate instead of those of the element. Of its mean stress -p_e, with the
 /// bulk viscosity in it,
 ///   P_a = sum_e p_e V0_e / sum_e V0_e,  p_e' = mean_a P_a
 /// pushes the corners, through dV_e/dx: what the law takes, sum_e p_e V0_e dJ_e', is then what the nodes

@@ -15,11 +15,12 @@ void check_directions(const Deck& deck, const Model& model, Index part, const Ma
     for (std::size_t c = 0; c < 8; ++c) corner[c] = model.nodes[static_cast<std::size_t>(nodes[c])].x;
     Matrix directions;
     if (directions_in_solid(axes, corner, directions)) continue;
-    return deck.error(diagnostics, model.parts[static_cast<std::size_t>(part)].card, "MID",
-                      fmt::format("the material of part {} has no directions in solid {}: two that tell them "
-                                  "lie along each other",
-                                  model.parts[static_cast<std::size_t>(part)].id, solid.id),
-                      "choose another AOPT, or other directions");
+    return deck.error(
+        diagnostics, model.parts[static_cast<std::size_t>(part)].card, "MID",
+        fmt::format("the material of part {} has no directions in solid {}: two that define them "
+                    "lie along each other",
+                    model.parts[static_cast<std::size_t>(part)].id, solid.id),
+        "choose another AOPT, or other directions");
   }
 }
 

@@ -91,7 +91,7 @@ struct OnePointLoops {
   void (*strain)(const ElementBlock& block, const SolidMesh& mesh, const SolidControl& control,
                  const SolidState& state, SolidScratch& scratch);
   /// Bulk viscosity of an equation of state, with the sound speed in `scratch`:
-  /// q at the end of the step in the place of that at its start, and the work of both through `opened` added
+  /// q at the end of the step instead of that at its start, and the work of both through `opened` added
   /// to that of stress.
   void (*viscosity)(const ElementBlock& block, const SolidControl& control, const SolidState& state,
                     SolidScratch& scratch);

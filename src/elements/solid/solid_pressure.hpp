@@ -67,7 +67,7 @@ class SolidPressure {
   /// Before the points: energy and pressure with the work of p and q so far, which is in `scratch`, too.
   void begin(const ElementBlock& block, const SolidControl& control, const SolidState& state,
              const Means& means, SolidScratch& scratch, Scratch& own) const;
-  /// Behind them, with their work in `scratch`: the pressure, its work, and in the place of the law's share
+  /// Behind them, with their work in `scratch`: the pressure, its work, and instead of the law's share
   /// the sound speed, both of the block.
   Faults complete(const ElementBlock& block, const SolidState& state, Real* pressure, Real* sound_speed,
                   SolidScratch& scratch, Scratch& own) const;
@@ -84,7 +84,7 @@ class SolidPressure {
   OnePointLoops loops_ = hexahedron_loops();
 };
 
-/// Of small strains from the state at the start: a law that stands in for `pressure` and its deviator.
+/// Of small strains from the state at the start: a law that is in for `pressure` and its deviator.
 std::shared_ptr<StrengthLaw> linear_response(const SolidPressure& pressure, const StrengthLaw& law);
 
 }  // namespace courant

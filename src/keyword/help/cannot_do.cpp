@@ -84,7 +84,7 @@ std::string cannot_do_markdown() {
   out += reasons_table(families_by_reason(true), "refused as");
   out +=
       "\n## Keywords whose cards are read and then refused\n\n"
-      "`courant check` counts what stands in them.\n";
+      "`courant check` counts their content.\n";
   out += reasons_table(names_only_read(), "lacking");
   std::string refused, limited, warned, idle;
   for (const KeywordSpec* spec : supported_keywords()) {

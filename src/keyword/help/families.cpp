@@ -137,7 +137,7 @@ constexpr Family families[] = {
     {"HOURGLASS", "this kind of hourglass control"},
     {"ICFD", "incompressible flows (ICFD)"},
     {"IGA", "isogeometric elements"},
-    {"INCLUDE", "this way of including files"},
+    {"INCLUDE", "this method of including files"},
     {"INCLUDE_BINARY", "binary files"},
     {"INCLUDE_COMPENSATION", "springback compensations"},
     {"INCLUDE_MULTISCALE", "multiscale models"},

@@ -82,7 +82,7 @@ std::string options_line(const KeywordSpec& spec) {
   if (spec.id_option) out += "Option _ID: a line with ID (columns 1-10) and heading (11-80) comes first. ";
   if (spec.mpp_option) out += "Option _MPP: one or two lines for parallel runs come first, without effect. ";
   if (spec.collect_option) out += "Option _COLLECT: adds to the set that has the same id already. ";
-  if (spec.once) out += "Where it stands more than once, the last counts. ";
+  if (spec.once) out += "Where it is given more than once, the last counts. ";
   if (!out.empty()) out.pop_back();
   return out;
 }
@@ -109,7 +109,7 @@ constexpr const char* markdown_introduction =
     "refused. *No effect*: read and left unused, because it cannot change results here. *Warning*: another "
     "value asks for "
     "output that Courant lacks; the run goes on without it.\n"
-    "- Behind a name stands its state, and below its heading in full. Honoured: all fields count. Partly: of "
+    "- Behind a name is its state, and below its heading in full. Honoured: all fields count. Partly: of "
     "some "
     "fields only the default, or some values, are taken, and a deck with others is refused. No effect: "
     "output and "

@@ -217,7 +217,7 @@ bool begins_with_words(std::string_view text, std::string_view words) {
          text[words.size()] == '-';
 }
 
-/// What stands behind "MAT_" or "EOS_"; empty for other keywords.
+/// What is behind "MAT_" or "EOS_"; empty for other keywords.
 std::string_view behind_family(std::string_view keyword) {
   const bool law = keyword.rfind("MAT_", 0) == 0 || keyword.rfind("EOS_", 0) == 0;
   return law ? keyword.substr(4) : std::string_view();

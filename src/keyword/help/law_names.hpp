@@ -15,7 +15,7 @@ struct LawName {
 };
 
 /// The law that a keyword names in whole words, by number or name, with whatever options behind it:
-/// MAT_024_TITLE, MAT_ELASTIC_FLUID. `length` tells how many characters of `keyword` name it. nullptr: none
+/// MAT_024_TITLE, MAT_ELASTIC_FLUID. `length` states how many characters of `keyword` name it. nullptr: none
 /// that is known here.
 const LawName* find_law(std::string_view keyword, std::size_t* length = nullptr);
 

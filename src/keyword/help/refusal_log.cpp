@@ -14,7 +14,7 @@ void RefusalLog::close(Diagnostics& diagnostics) const {
   for (const auto& [name, told] : told_)
     if (told.more > 0)
       diagnostics.amend(told.message,
-                        fmt::format(" (here and in {} more place{})", told.more, told.more == 1 ? "" : "s"));
+                        fmt::format(" (here and at {} more line{})", told.more, told.more == 1 ? "" : "s"));
 }
 
 }  // namespace courant

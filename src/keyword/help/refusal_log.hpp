@@ -1,5 +1,5 @@
 #pragma once
-// A keyword that is not supported is told once, at the first place, with the number of further places.
+// A keyword that is not supported is reported once, at the first location, with the number of further places.
 #include <map>
 #include <string>
 

@@ -252,7 +252,7 @@ bool CardReader::begins_entry(std::string_view line) {
   return true;
 }
 
-/// Numbers of parameters stand in parentheses, so that signs keep their operand.
+/// Numbers of parameters are in parentheses, so that signs keep their operand.
 void CardReader::read_whole_line(const DataLines& data, std::size_t card, EntrySink& sink) {
   line_ = static_cast<int>(data.index()) + 1;
   const std::string_view line = data.line();
@@ -301,12 +301,12 @@ bool CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec,
     return false;
   diagnostics_->warning(
       here(static_cast<int>(last)),
-      fmt::format("*{}: a number runs across column {}, the last of card {}; what stands behind is not read",
+      fmt::format("*{}: a number runs across column {}, the last of card {}; the rest is not read",
                   spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
   return true;
 }
 
-/// Of a list of ids, whether a blank field or 0 has a place in it.
+/// Of a list of ids, whether a blank field or 0 has a location in it.
 bool CardReader::keeps_zeros(std::size_t card, const FieldSpec& spec) const {
   return spec.type == FieldType::ids && (spec_->cards[card].is_table || spec.rules.pairs);
 }

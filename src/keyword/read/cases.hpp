@@ -23,7 +23,7 @@ struct LoadCase {
 /// *CASE_BEGIN_n. Faults go to `diagnostics`: blocks that do not end, cases without blocks, COMMANDS.
 std::vector<LoadCase> cases_in(const std::string& file, std::string_view text, Diagnostics& diagnostics);
 
-/// The text with what does not belong to a case as comments: keywords of cases, and what stands in blocks
+/// The text with what does not belong to a case as comments: keywords of cases, and what is in blocks
 /// none of which is the case's.
 std::string text_of_case(std::string_view text, const std::set<Id>& subcases);
 

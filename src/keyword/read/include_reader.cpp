@@ -168,7 +168,7 @@ void DeckReader::include(const std::string& name, const File& from, std::size_t 
     diagnostics_.error(place(from, line), fmt::format("{}: cannot read '{}'", keyword, name),
                        name.find('&') == std::string::npos
                            ? fmt::format("looked for {}", fmt::join(paths, ", "))
-                           : "only text parameters (C) that are defined above stand for parts of a name");
+                           : "only text parameters (C) that are defined above replace parts of a name");
     return;
   }
   if (!may_include(*found, place(from, line), keyword)) return;

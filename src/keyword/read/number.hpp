@@ -15,7 +15,7 @@ inline bool is_digit(char c) {
 /// `text` without blanks around it. False if it is no finite number, or too large or too small for a double.
 bool parse_real(std::string_view text, Real& value);
 
-/// As parse_real and parse_integer, for those that stand in nearly every field of nearly every deck: digits
+/// As parse_real and parse_integer, for those that are in nearly every field of nearly every deck: digits
 /// with a point and a small exponent, and up to 18 digits. False says nothing about others.
 bool parse_plain_real(const char* begin, const char* end, Real& value);
 bool parse_plain_integer(const char* begin, const char* end, Id& value);

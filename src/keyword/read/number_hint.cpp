@@ -29,7 +29,7 @@ std::string number_hint(std::string_view text) {
     return "a character in it is not ASCII: a blank or a sign of a text program?";
   // Fortran readers skip blanks within a number or take them for zeros; we do not guess
   if (text.find(' ') != std::string_view::npos && is_digit(text.back()))
-    return "a number must not contain blanks; does it stand within the columns of its field?";
+    return "a number must not contain blanks; is it within the columns of its field?";
   Real value = 0;
   if (looks_like_number(text) && !parse_real(text, value))
     return "numbers other than 0 range from 1e-307 to 1e308";

@@ -34,7 +34,7 @@ void Parameters::define(const Definition& definition, Diagnostics& diagnostics) 
     read_value(definition, value, diagnostics);
   } else {
     given->second.used = true;
-    Value of_deck = value;  // tells what the definition is made of; its faults do not matter
+    Value of_deck = value;  // states what the definition is made of; its faults do not matter
     Diagnostics unheard;
     read_value(definition, of_deck, unheard);
     value.made_of = of_deck.made_of;
@@ -60,8 +60,8 @@ bool Parameters::read_declaration(const Definition& definition, Value& value,
   if (value.name.find(' ') != std::string::npos)
     return refuse(fmt::format("the name '{}' contains a blank", value.name),
                   definition.is_expression
-                      ? "the name stands in columns 1-10 and the expression behind them, or a comma separates"
-                      : "names stand in columns 1-10, 21-30, 41-50, 61-70 and values in the columns behind "
+                      ? "the name is in columns 1-10 and the expression after them, or a comma separates"
+                      : "names are in columns 1-10, 21-30, 41-50, 61-70 and values in the columns after "
                         "them, or commas separate");
   const auto odd = std::find_if(value.name.begin(), value.name.end(), [](char c) {
     return !std::isalnum(static_cast<unsigned char>(c)) && c != '_';

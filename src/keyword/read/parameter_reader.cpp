@@ -94,7 +94,7 @@ void DeckReader::read_parameters(const File& file, std::size_t line, CardFormat 
         if (!value.text.empty())
           diagnostics_.error(place(file, data.index(), value.column),
                              fmt::format("{}: the value '{}' has no name", definition.keyword, value.text),
-                             "the type letter and name stand before the value");
+                             "the type letter and name come before the value");
         continue;
       }
       definition.declaration = name.text;
@@ -148,7 +148,7 @@ void DeckReader::read_parameter_expressions(const File& file, std::size_t line, 
       diagnostics_.error(
           definition.where,
           fmt::format("{}: there is no expression above that this line could continue", definition.keyword),
-          "the type letter and name stand in the first columns");
+          "the type letter and name are in the first columns");
     else
       parameters_.define(definition, diagnostics_);
   }

@@ -79,7 +79,7 @@ std::string Parameters::nearest(std::string_view reference) const {
     if (upper_case(value.name) == name)
       return fmt::format("&{} is local to the file that defines it, at {}", value.name,
                          place_of(value.where));
-  if (name.find_first_of("+*/()-") != std::string::npos) return "an expression stands between < and >";
+  if (name.find_first_of("+*/()-") != std::string::npos) return "an expression is between < and >";
   std::vector<std::string> names;
   std::map<std::string, std::string> as_declared;
   for (const Scope& scope : scopes_) {

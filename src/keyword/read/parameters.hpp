@@ -35,7 +35,7 @@ class Parameters {
     std::function<Location(std::size_t)> place_in_value{};  ///< of a character of `value`
   };
 
-  /// What stands for a reference or an expression in a field.
+  /// What represents a reference or an expression in a field.
   struct Resolved {
     char type = 'R';
     std::string text{};    ///< as if it stood in the field itself

@@ -110,7 +110,7 @@ std::size_t DeckReader::skip_text_before_keywords(const File& file) {
                        "ask its owner for plain text");
   else if (!data.done())
     diagnostics_.error(place(file, data.index()), "text before the first keyword",
-                       "is this a keyword deck? Only comments ($) may stand there");
+                       "is this a keyword deck? Only comments ($) are allowed there");
   else if (first == file.source->lines.size() && file.index == 0)
     diagnostics_.error({deck_.files[0].name, 0, 0}, "the deck holds no keyword");
   else if (first == file.source->lines.size() && is_blank(*file.source))
@@ -235,7 +235,7 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
 Treatment DeckReader::refuse(const std::string& name, const Location& where) {
   if (name.empty()) {
     diagnostics_.error(where, "a '*' in column 1 without the name of a keyword",
-                       "the name stands right behind it; a comment begins with $");
+                       "the name follows it directly; a comment begins with $");
     return Treatment::refused;
   }
   const bool is_output = is_output_request(name);

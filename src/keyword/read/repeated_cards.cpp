@@ -7,7 +7,7 @@
 namespace courant {
 namespace {
 
-/// As it would stand on the card.
+/// As it would be on the card.
 std::string value_in(const KeywordSpec& spec, const Entry& entry, std::size_t card, std::size_t field) {
   const FieldType type = spec.cards[card].fields[field].type;
   const bool number = type == FieldType::integer || type == FieldType::id || type == FieldType::real;

@@ -1,5 +1,5 @@
 #pragma once
-// The quick way through tables of nodes and elements, where a deck of millions of lines spends its time: an
+// The fast path through tables of nodes and elements, where a deck of millions of lines spends its time: an
 // ordinary line goes from its characters to the numbers of an entry at once. Any other line (a parameter, a
 // fault, a value that needs a word) is left to CardReader, which knows every case.
 #include <cstddef>
@@ -17,7 +17,7 @@ bool satisfies(Check check, Real value);
 class TableLines {
  public:
   TableLines() = default;
-  /// For keywords of one card per entry; `usable` tells whether all its fields are numbers.
+  /// For keywords of one card per entry; `usable` states whether all its fields are numbers.
   TableLines(const KeywordSpec& spec, CardFormat format);
   bool usable() const { return !columns_.empty(); }
   /// Reads a line into an entry at its standard values (EntrySink::fields). False: not an ordinary line, and

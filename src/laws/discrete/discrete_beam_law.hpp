@@ -49,7 +49,7 @@ class YieldCurve {
 /// One of the six. Of turns forces are moments, stretches angles.
 struct BeamSpring : SpringLaw {
   Real k = 0, c = 0, preload = 0;  ///< [M/T2], [M/T], [ML/T2]
-  ForceCurve force{}, damping{};   ///< in place of k and c; empty: none
+  ForceCurve force{}, damping{};   ///< instead of k and c; empty: none
   YieldCurve yield{};              ///< of k; empty: elastic
   bool acts() const { return k > 0 || c > 0 || preload != 0 || !force.empty() || !damping.empty(); }
   /// State of springs that yield: force besides that of damping and preload, plastic stretch.

@@ -28,7 +28,7 @@ struct EosBlock {
 };
 
 /// A law that remembers the greatest compression of a point: A(mu, most), dA(mu, most), and stiffness(mu,
-/// most), dp/dmu of the steepest way from there, which the sound speed is made of. `memory` is the name of
+/// most), dp/dmu of the steepest path from there, which the sound speed is made of. `memory` is the name of
 /// the field.
 template <class Law>
 concept RemembersCompression = requires {
@@ -74,7 +74,7 @@ struct EosEntry {
   std::vector<EosReference> references;
   /// Every law of this kind in a deck. The model has the curves.
   std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&, const Model&)> all;
-  /// Reports what the table of the keyword cannot tell of its cards.
+  /// Reports what the table of the keyword cannot report its cards.
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 

@@ -309,7 +309,7 @@ void ED::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) c
   refuse("CRIT", crit != 54 && crit != 55, crit, "the matrix fails by Chang and Chang or by Tsai and Wu",
          "54 or 55");
   for (const auto& [field, value] : {std::pair{"SOFT", soft}, std::pair{"SOFTG", softg}}) {
-    refuse(field, !(value > 0 && value <= 1), value, "it is a share of what stands on the card",
+    refuse(field, !(value > 0 && value <= 1), value, "it is a fraction of the value on the card",
            "above 0, and 1 at most");
     if (value != 1 && !(tfail > 0))
       deck.warning(

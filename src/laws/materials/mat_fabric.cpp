@@ -203,7 +203,7 @@ void MatFabric::check(const Deck& deck, const Model& model, Diagnostics& diagnos
     if (!holds) deck.error(diagnostics, *this, field, what, hint);
   };
   expect((eb == 0) == (gab == 0), eb == 0 ? "EB" : "GAB",
-         "stands blank beside a modulus that is not: fabric is orthotropic or isotropic",
+         "is blank beside a modulus that is not: fabric is orthotropic or isotropic",
          "give EB and GAB, or neither for a fabric that is isotropic");
   expect(prba * prba * ea < modulus_b(), "PRBA",
          "the material would give energy away: its stiffness is not positive definite", "PRBA^2 < EB/EA");
@@ -216,7 +216,7 @@ void MatFabric::check(const Deck& deck, const Model& model, Diagnostics& diagnos
   expect(form == 0 || form == 14, "FORM", fmt::format("'{}' is not supported", form),
          "0: linear; 14: fibres with curves");
   if (by_fibres() && prba != 0)
-    deck.warning(diagnostics, *this, "PRBA", "has no effect: fibres of FORM 14 pull for themselves",
+    deck.warning(diagnostics, *this, "PRBA", "has no effect: fibres of FORM 14 are independent",
                  "FORM 0 has lateral contraction");
   if (damp != 0)
     deck.warning(diagnostics, *this, "DAMP", "the viscous stress of the fabric is left out",

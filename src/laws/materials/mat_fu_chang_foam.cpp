@@ -122,10 +122,10 @@ void MatFuChangFoam::check(const Deck& deck, const Model& model, Diagnostics& di
   check_curves_over_rate(deck, model, *this, "TBID", tbid, -1e10, diagnostics);
   if (diagnostics.errors() == errors && tflag == 1 && !(CurvesOverRate(model, tbid).begins < 0))
     deck.error(diagnostics, *this, "TBID", "TFLAG 1 needs curves that have tension",
-               "tension stands below 0, strain and stress");
+               "tension is below 0, strain and stress");
 }
 
-/// Of the fit that a table stands for.
+/// Of the fit that a table represents.
 const std::string foam_curve = "*DEFINE_CURVE\n5\n0.0,0.0\n0.25,1.0\n1.0,4.0\n";
 // By hand. E = 10; f = 4 e. D dt = (-2/3, 0, 0): l = 1/2: f = 2 over an area that is as it was.
 const RegisterStrength<MatFuChangFoam> mat_fu_chang_foam{

@@ -21,7 +21,7 @@ struct MatHoneycomb : DirectionsCard {
   Real eaau = 0, ebbu = 0, eccu = 0, gabu = 0, gbcu = 0, gcau = 0, tsef = 0, ssef = 0;
   int macf = 1;
 
-  /// Of aa, bb, cc, ab, bc, ca, by what stands in for those that are left out.
+  /// Of aa, bb, cc, ab, bc, ca, by what is in for those that are left out.
   std::array<Id, 6> curves() const {
     const Id shear = lcs != 0 ? lcs : lca;
     const auto or_else = [](Id own, Id other) { return own != 0 ? own : other; };

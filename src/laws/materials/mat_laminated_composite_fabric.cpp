@@ -167,7 +167,7 @@ class Fabric : public StrengthLaw {
             tear * card_.gca * 2 * s.eca};
   }
 
-  /// The largest r so far. FS tells which surface shear belongs to besides its own.
+  /// The largest r so far. FS states which surface shear belongs to besides its own.
   void load(const Curves& at, FabricState& s) const {
     const Real shear = std::abs(2 * s.eab) / at.shear.break_strain;
     const Real with_a = card_.fs == 1 ? shear : 0, with_b = card_.fs >= 0 ? shear : 0;

@@ -101,7 +101,8 @@ void M::check_factor(const Deck& deck, const Model& model, Diagnostics& diagnost
     deck.error(diagnostics, *this, "LCSR",
                fmt::format("curve {} has factors that are not > 0", std::abs(lcsr)), hint);
   if (c > 0)
-    deck.error(diagnostics, *this, "LCSR", "stands beside C and P, which tell the same", "give one of them");
+    deck.error(diagnostics, *this, "LCSR", "is given with C and P, which define the same",
+               "give one of them");
 }
 
 void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {

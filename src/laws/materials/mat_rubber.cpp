@@ -65,7 +65,7 @@ std::vector<FieldOf<C>> first_rubber_fields() {
           {"N",
            &C::n,
            "-",
-           "0: constants stand below; above 0, fits to curves, which are refused",
+           "0: constants are below; above 0, fits to curves, which are refused",
            {.check = Check::not_negative}},
           {"NV", &C::nv, "-", "terms of a fit of relaxation", no_effect_but(6)},
           {"G", &C::g, "M/LT2", "damping that does not depend on the frequency", unsupported},

@@ -101,7 +101,7 @@ void DirectionsCard::check_axes(const Deck& deck, const Model& model, Diagnostic
           fmt::format("coordinate system {:g} moves with nodes, and directions of a material turn with "
                       "their element",
                       -aopt),
-          "use a system that stands still");
+          "use a fixed system");
     return;
   }
   if (aopt != 0 && aopt != 2 && aopt != 3)

@@ -55,7 +55,7 @@ class StrengthLaw {
   /// How the directions a, b lie by which the law tells its rates and stresses (material_axes.hpp); null: it
   /// has none. Shells turn to them; in solids a law turns itself, by its history `material_directions`.
   virtual const MaterialAxes* axes() const { return nullptr; }
-  /// Waves can be faster than at rest, as `sound_speed` of a block tells: shells heed it.
+  /// Waves can be faster than at rest, as `sound_speed` of a block tells: shells respect it.
   virtual bool stiffens() const { return false; }
   /// Whether shells and beams can have it; of laws with directions shells alone can, or solids alone.
   virtual bool in_sheets() const { return true; }
@@ -99,7 +99,7 @@ struct StrengthEntry {
   std::vector<StrengthReference> references;
   /// Every law of this kind in a deck, by the id of its material. The model has the curves and tables.
   std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&, const Model&)> all;
-  /// Reports what the table of the keyword cannot tell of its cards.
+  /// Reports what the table of the keyword cannot report its cards.
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 

@@ -7,7 +7,7 @@ namespace courant {
 
 /// The rate on which a yield stress depends: of all strain less the elastic part of the deviator. With the
 /// rate of all strain of half a step ago the yield stress would be a viscosity that an explicit step does not
-/// bear (docs/theory.md, viscoplasticity).
+/// bear (docs/theory_materials.md, viscoplasticity).
 enum class YieldRate {
   none,
   of_flow,            ///< increment of plastic strain over the step, per its length

@@ -31,7 +31,7 @@ struct ReturnLaw {
   Real of_g() const { return 2 * G + 2.0 / 3 * kinematic; }
 };
 
-/// Points of a block on their way to the surface.
+/// Points of a block on their path to the surface.
 struct ReturnPoints {
   YieldPoints at;                          ///< at x
   Real x[block_size];                      ///< [-] in space, [LT2/M] in the plane

@@ -47,7 +47,7 @@ Sensor sensor_of(const ForceSensor& card, const SensorAxis& axis) {
   return out;
 }
 
-/// Of other kinds of forces there is no sensor here; who asks for one is told.
+/// Of other kinds of forces there is no sensor here; who asks for one is reported.
 const RegisterSensors sensors_of_forces{
     [](const Deck& deck, const Model& model, const World&, Diagnostics& diagnostics) {
       std::vector<Sensor> out;
@@ -99,7 +99,7 @@ Vec sensor_direction(const Deck& deck, const Model& model, const Entry& card, co
   const Vec along = vector->second.head - vector->second.tail;
   if (vector->second.moves || !(along.norm() > 0))
     deck.error(diagnostics, card, "VID", fmt::format("vector {} turns with nodes, or has no direction", vid),
-               "give it by two places that differ");
+               "give it by two points that differ");
   return along.norm() > 0 ? Vec(along.normalized()) : Vec(Vec::Zero());
 }
 

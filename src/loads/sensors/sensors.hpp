@@ -56,7 +56,7 @@ struct SensorControl {
   bool claimed = false;  ///< by a contact: there is one
   bool on_first = true;
   std::vector<int> switches{};
-  int repeats = 0;  ///< < 0: for ever
+  int repeats = 0;  ///< < 0: without end
 };
 
 class SensorBoard;

@@ -171,7 +171,7 @@ class RigidWallReader {
       return error(card, "VZ", "in 2D nothing moves along z", "leave VZ 0");
     if (card.opt == 1 && (*curve)(0) != 0)
       return error(card, "LCID", fmt::format("the displacement is {:g} at t = 0", (*curve)(0)),
-                   "begin with 0, and give the wall its first place on card 2");
+                   "begin with 0, and give the wall its first position on card 2");
     const auto& x = curve->abscissa;
     if (card.opt == 1 && std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end())
       return error(card, "LCID", "the displacement jumps", "give the points of the curve increasing times");
@@ -198,7 +198,7 @@ class RigidWallReader {
 
   bool read_ortho(const RigidWallOrtho& card, RigidWallSetup& wall) {
     if (card.fric != 0)
-      return error(card, "FRIC", fmt::format("'{:g}' stands beside the friction of _ORTHO", card.fric),
+      return error(card, "FRIC", fmt::format("'{:g}' is given with the friction of _ORTHO", card.fric),
                    "leave it 0, or leave out _ORTHO");
     OrthoFriction& friction = wall.ortho.emplace();
     friction.at_rest = {card.sfrica, card.sfricb}, friction.sliding = {card.dfrica, card.dfricb};
@@ -317,7 +317,7 @@ class RigidWallReader {
       deck_.warning(
           diagnostics_, card, "",
           "RWPNAL of *CONTROL_CONTACT is below 0, which asks for a penalty of all nodes: nodes that "
-          "deform are stopped at once in its place, and do not bounce",
+          "deform are stopped at once instead, and do not bounce",
           "RWPNAL 1 says the same without this warning");
     if (count.held == 0 && bodies.empty())
       deck_.warning(diagnostics_, card, "", "the wall holds nothing", "name particles or nodes of solids");

@@ -36,7 +36,7 @@ T add_up(Index n, T start, const Body& body, const Combine& combine) {
 /// solves M (w - w_before) + sum m max(0, w - u) = 0, u the speed at which a point alone would come to the
 /// plane, by Newton's method, which ends for such a sum of straight pieces. Friction: at most FRIC times the
 /// normal force, and what stops the sliding. SPC hold some axes of a point: there the wall cannot push. A
-/// body is taken for the plane through the place of its surface that is nearest to the point.
+/// body is taken for the plane through the position of its surface that is nearest to the point.
 class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartable {
  public:
   /// Of each set, the points that any wall may touch in a step.
@@ -97,7 +97,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     force_ = bodies_.force(), normal_ = bodies_.normal();
   }
 
-  /// Finds the forces anew, whatever other walls have done to the points since; returns the sum of what has
+  /// Finds the forces again, whatever other walls have done to the points since; returns the sum of what has
   /// changed. [ML/T2]
   Real push(const World& world, const Clock& clock) {
     if (!acts(clock)) return 0;
@@ -280,7 +280,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   Vec drive_ = Vec::Zero(), moved_ = Vec::Zero();    ///< prescribed: over the step [L/T], so far [L]
 };
 
-/// All walls: where a point touches several, each finds its forces anew until they no longer change
+/// All walls: where a point touches several, each finds its forces again until they no longer change
 /// (Gauss-Seidel).
 class RigidWalls : public Impact {
  public:
@@ -302,7 +302,7 @@ class RigidWalls : public Impact {
   }
 
  private:
-  /// Nothing gets faster by being stopped: twice the way of a point and a wall is enough.
+  /// Nothing gets faster by being stopped: twice the path of a point and a wall is enough.
   std::shared_ptr<const RigidWall::Near> find_near(const World& world, const Clock& clock) const {
     Real fastest = 0;
     for (const auto& wall : walls_) fastest = std::max(fastest, wall->prepare(world, clock));

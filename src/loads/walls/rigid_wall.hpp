@@ -21,7 +21,7 @@ struct RigidWallSetup {
   WallShape shape;
   Real birth = 0, death = 1e20;
   Real body_stiffness = 1;                   ///< RWKSF: share of the penalty for rigid bodies
-  Real mass = 0;                             ///< 0: it does not give way. Of planes only
+  Real mass = 0;                             ///< 0: it does not yield. Of planes only
   Real speed = 0;                            ///< at the start, along the normal, of one with a mass [L/T]
   Real friction = 0;                         ///< infinite where nothing slides
   std::optional<OrthoFriction> ortho{};      ///< instead of that, where it differs by direction

@@ -9,7 +9,7 @@ namespace courant {
 
 namespace {
 
-/// Its lengths are no places, and edge m follows from the others by the right hand.
+/// Its lengths are no positions, and edge m follows from the others by the right hand.
 std::string keep_lengths(bool has_lengths, const Affine& motion) {
   constexpr Real round_off = 1e-9;
   const Matrix A = motion.linear();

@@ -44,8 +44,8 @@ class WallPenalty {
     const WallShape* shape = nullptr;
     Vec moved = Vec::Zero();  ///< since t = 0 [L]
     Vec v = Vec::Zero();      ///< [L/T]
-    /// Force against `slip` on a mass at a place with this normal, where the wall pushes with `push`; empty:
-    /// none. [ML/T2]
+    /// Force against `slip` on a mass at a position with this normal, where the wall pushes with `push`;
+    /// empty: none. [ML/T2]
     std::function<Vec(const Vec& n, const Vec& slip, Real push, Real mass, Real dt)> friction{};
   };
   /// Pushes the bodies, after forces are summed and dt is known.

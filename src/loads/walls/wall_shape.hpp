@@ -6,8 +6,8 @@
 namespace courant {
 
 /// What a rigid wall looks like, about where it is at t = 0: a plane, or a body that points stay outside of.
-/// All are convex: what is before the plane through the nearest place of the surface, at right angles to the
-/// normal there, is outside.
+/// All are convex: what is before the plane through the nearest position of the surface, at right angles to
+/// the normal there, is outside.
 struct WallShape {
   enum class Kind { plane, prism, cylinder, sphere };
   Kind kind = Kind::plane;
@@ -25,7 +25,7 @@ struct WallShape {
 
   struct Near {
     Real gap = 0;          ///< distance, below 0 inside or behind the plane [L]
-    Vec n = Vec::UnitX();  ///< of length 1, out of the wall at the nearest place of its surface
+    Vec n = Vec::UnitX();  ///< of length 1, out of the wall at the nearest position of its surface
   };
   Near nearest(const Vec& x) const;
   /// Whether a point that goes to `next` meets the wall rather than passing beside it. `gap`: of where it is.

@@ -95,8 +95,8 @@ void ModelBuilder::build_body_loads() {
     if (std::abs(v.norm() - 1) > rounded)
       deck_.warning(
           diagnostics_, card, "V1",
-          fmt::format("the vector tells the direction only, its length of {:g} has no effect", v.norm()),
-          "SF and the curve tell how large the acceleration is; give a vector of length 1");
+          fmt::format("the vector gives the direction only, its length of {:g} has no effect", v.norm()),
+          "SF and the curve give the acceleration; give a vector of length 1");
     add(card, card.lcid, card.lciddr, {.direction = v.normalized(), .sf = card.sf});
   }
   for (const LoadBodyRotationCard& card : deck_.all<LoadBodyRotationCard>())

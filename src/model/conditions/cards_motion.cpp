@@ -159,7 +159,7 @@ class Reader {
           diagnostics_, card, "VID",
           fmt::format("vector {} {}", card.vid,
                       vector->second.moves ? "turns with nodes, which is not supported" : "has no direction"),
-          "give it by two places that differ");
+          "give it by two points that differ");
     else
       motion.direction = along.normalized();
     return usable;

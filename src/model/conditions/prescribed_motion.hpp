@@ -43,10 +43,10 @@ struct PrescribedMotion {
   bool drives(Real t, Real dt) const {
     return !curve.silent && t + 0.5 * dt >= birth && t + 0.5 * dt < death;
   }
-  /// Velocity over the step from t to t + dt, whose length gives the place at t + dt exactly: the mean of the
-  /// curve over the step, or the rise of displacements over dt, in the first step from 0. Of accelerations:
-  /// `before`, the velocity over the step before, plus the change of the mean velocity from one step (of
-  /// length dt_old, 0: there is none) to the next.
+  /// Velocity over the step from t to t + dt, whose length gives the position at t + dt exactly: the mean of
+  /// the curve over the step, or the rise of displacements over dt, in the first step from 0. Of
+  /// accelerations: `before`, the velocity over the step before, plus the change of the mean velocity from
+  /// one step (of length dt_old, 0: there is none) to the next.
   Real velocity(Real t, Real dt, Real dt_old, Real before) const;
 };
 

@@ -57,7 +57,7 @@ bool moved_alike(const Deck& deck, const Entry& entry, Id cid) {
 }
 
 std::string moved_otherwise(Id cid) {
-  return fmt::format("system {} stands in a file that *INCLUDE_TRANSFORM moves otherwise", cid);
+  return fmt::format("system {} is in a file that *INCLUDE_TRANSFORM moves otherwise", cid);
 }
 
 }  // namespace
@@ -160,7 +160,7 @@ void ModelBuilder::build_vectors() {
                         .moves = true};
     if (v.tail == v.head)
       error(card, "NODEH",
-            fmt::format("vector {} has no length: nodes {} and {} are in one place", card.vid, card.nodet,
+            fmt::format("vector {} has no length: nodes {} and {} are at one position", card.vid, card.nodet,
                         card.nodeh));
     model_.vectors.emplace(card.vid, v);
   }
@@ -179,7 +179,7 @@ std::vector<Real> scaled(const std::vector<Real>& values, Real scale, Real offse
 void ModelBuilder::build_tables() {
   for (const DefineTableCard& card : deck_.all<DefineTableCard>()) {
     Table table{.id = card.tbid, .value = scaled(card.value, card.sfa, card.offa)};
-    // entries stand in the order of reading; the curves come behind the table in the same file
+    // entries are in the order of reading; the curves come behind the table in the same file
     const auto& curves = deck_.all<DefineCurveCard>();
     auto next = std::find_if(curves.begin(), curves.end(), [&](const DefineCurveCard& c) {
       return c.file == card.file && c.line > card.line;

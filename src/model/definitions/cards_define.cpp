@@ -13,12 +13,12 @@ using namespace rules;
 
 const FieldRules cartesian{.allowed = {0}};
 
-/// Places in a system of the file are told by its axes, which have length 1 whatever the file does.
+/// Places in a system of the file are reported by its axes, which have length 1 whatever the file does.
 template <class T, Id T::*Local>
 std::string refuse_scaling(T& card, const Affine& motion) {
   if (card.*Local == 0) return {};
   if (motion.linear().determinant() < 0) return "the file is mirrored, and a system is right-handed";
-  return refuse_stretch(motion, "places in a system");
+  return refuse_stretch(motion, "positions in a system");
 }
 
 const RegisterKeyword<DefineBoxLocalCard> define_box_local{define_box_local_table()};
@@ -104,7 +104,7 @@ const RegisterKeyword<DefineTable3dCard> define_table_3d{
 
 }  // namespace
 
-/// The sides stand along the axes as lengths: they can be turned and shifted, not stretched.
+/// The sides are along the axes as lengths: they can be turned and shifted, not stretched.
 std::string refuse_stretching(DefineBoxLocalCard&, const Affine& motion) {
   const Matrix turn = motion.linear();
   const bool rigid = (turn.transpose() * turn).isIdentity(1e-9) && turn.determinant() > 0;

@@ -32,7 +32,7 @@ Calculated chosen(Arguments a) {
 template <Real (*shape)(Real)>
 Calculated risen(Arguments a) {
   const Real x0 = number(a, 1), h0 = number(a, 2), x1 = number(a, 3), h1 = number(a, 4);
-  if (!(x1 > x0)) return {{}, "the second place is not behind the first"};
+  if (!(x1 > x0)) return {{}, "the second position is not behind the first"};
   const Real d = std::clamp((number(a, 0) - x0) / (x1 - x0), Real(0), Real(1));
   return real(h0 + (h1 - h0) * shape(d));
 }
@@ -270,7 +270,7 @@ CurveExpression CurveExpression::of_function(std::string_view text, TextFault& f
         fault = {
             fmt::format("the value depends on '{}', and only the first argument, the time, is known here",
                         reader.arguments[k]),
-            "loads that differ from place to place are not supported", assignment.at};
+            "loads that depend on position are not supported", assignment.at};
         return out;
       }
     const auto known = std::find(names.begin() + static_cast<std::ptrdiff_t>(constants.size()), names.end(),

@@ -26,23 +26,21 @@ void use(const Deck& deck, const Entry& entry, const KeywordSpec& spec, const Id
   const char* hint =
       "give the curve in the deck's own units: in a file without unit factors, or through SFA and SFO";
   if (!dimensions.known()) {
-    deck.error(
-        diagnostics, entry, field.name,
-        fmt::format("curve {} stands in a file with unit factors, and the dimensions of its numbers are "
-                    "not known here",
-                    std::abs(id.id)),
-        hint);
+    deck.error(diagnostics, entry, field.name,
+               fmt::format("curve {} is in a file with unit factors, and the dimensions of its numbers are "
+                           "not known here",
+                           std::abs(id.id)),
+               hint);
     return;
   }
   const UnitFactors& units = deck.files[static_cast<std::size_t>(curve.card->file)].conversion.units;
   const Real abscissa = units.of(dimensions.abscissa), ordinate = units.of(dimensions.ordinate);
   if (curve.used && (curve.abscissa != abscissa || curve.ordinate != ordinate))
-    deck.error(
-        diagnostics, entry, field.name,
-        fmt::format("curve {} stands in a file with unit factors, and its numbers have another dimension "
-                    "here than for {} at {}",
-                    std::abs(id.id), deck.keyword(curve.user), deck.place(curve.user)),
-        hint);
+    deck.error(diagnostics, entry, field.name,
+               fmt::format("curve {} is in a file with unit factors, and its numbers have another dimension "
+                           "here than for {} at {}",
+                           std::abs(id.id), deck.keyword(curve.user), deck.place(curve.user)),
+               hint);
   curve.abscissa = abscissa;
   curve.ordinate = ordinate;
   curve.user = entry;

@@ -69,7 +69,7 @@ const RegisterKeyword<CS> define_curve_smooth{
     {.names = {"DEFINE_CURVE_SMOOTH"},
      .purpose =
          "curve over the time, as of a velocity: up by half a wave of a cosine, constant, and down the "
-         "same way, with a given area",
+         "same shape, with a given area",
      .id_space = IdSpace::curve,
      .title_option = true,
      .title = &CS::title,
@@ -77,7 +77,7 @@ const RegisterKeyword<CS> define_curve_smooth{
          {{.fields =
                {{"LCID", &CS::lcid, "-", "curve id", rules::required_id},
                 {"SIDR", &CS::sidr, "-", "phase: 0 transient, 1 relaxation, 2 both", {.allowed = {0, 1, 2}}},
-                {"DIST", &CS::dist, "-", "area under the curve: the way of what moves so fast"},
+                {"DIST", &CS::dist, "-", "area under the curve: the distance at that speed"},
                 {"TSTART", &CS::tstart, "T", "time at which it begins to rise"},
                 {"TEND", &CS::tend, "T", "time at which it is 0 again; 0: follows from VMAX"},
                 {"TRISE",
@@ -166,10 +166,11 @@ void ModelBuilder::add_smooth_curve(const Card& card, const Sample& sample) {
                  "give one of them: the other follows from DIST");
   if (vmax != 0) {
     if (!(card.dist / vmax >= card.trise))
-      return error(card, "DIST",
-                   fmt::format("a rise of {:g} to VMAX {:g} and the fall behind it alone take the way {:g}",
-                               card.trise, vmax, vmax * card.trise),
-                   "shorten TRISE, or lower VMAX; the signs of DIST and VMAX are the same");
+      return error(
+          card, "DIST",
+          fmt::format("a rise of {:g} to VMAX {:g} and the fall behind it alone cover the distance {:g}",
+                      card.trise, vmax, vmax * card.trise),
+          "shorten TRISE, or lower VMAX; the signs of DIST and VMAX are the same");
     tend = card.tstart + card.trise + card.dist / vmax;
   } else {
     if (!(tend - card.tstart >= 2 * card.trise))

@@ -24,7 +24,7 @@ Real number_named(const KeywordSpec& spec, const Entry& entry, std::string_view 
 }  // namespace
 
 // What other programs make of a load beyond the last point of its curve differs: whoever reads the deck
-// should know that the last value is held here. Each curve is told of once.
+// should know that the last value is held here. Each curve is reported once.
 void ModelBuilder::warn_of_short_curves() {
   std::set<Id> told;
   for_load_curves(deck_, [&](const Entry& entry, const char* field, Id id) {

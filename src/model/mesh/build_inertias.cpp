@@ -24,7 +24,7 @@ bool has_offset(const ElementInertiaCardFields& card) {
   return card.name == 1;
 }
 
-/// The tensor turns with the file, unless it stands in axes of its own, which turn.
+/// The tensor turns with the file, unless it is in axes of its own, which turn.
 std::string move_inertia(ElementInertiaCardFields& fields, const Affine& motion) {
   auto& card = static_cast<ElementInertiaCard&>(fields);
   if (card.csid != 0) return {};
@@ -46,10 +46,10 @@ void ModelBuilder::build_inertias() {
     if (card.csid != 0) {
       const CoordinateSystem* system = coordinate_system(card, "CSID", card.csid);
       if (card.ixy != 0 || card.ixz != 0 || card.iyz != 0)
-        error(card, "IXY", "IXY, IXZ and IYZ stand beside CSID, whose axes are the principal ones",
+        error(card, "IXY", "IXY, IXZ and IYZ are given with CSID, whose axes are the principal ones",
               "leave them 0, or CSID");
       if (one.offset.norm() > 0)
-        error(card, "CSID", "an offset beside CSID is not supported: along which axes it counts is not told",
+        error(card, "CSID", "an offset beside CSID is not supported: its axes are not documented",
               "give the tensor along global axes, with CSID 0");
       if (system) one.J = system->axes * one.J * system->axes.transpose();
     }

@@ -168,7 +168,7 @@ void ModelBuilder::check_solid_shapes() {
         bent ? "N1 to N3 run counter-clockwise seen from N4, N5 to N10 are near the middles of edges 12, 23, "
                "31, 14, 24, 34"
         : turned
-            ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N5 to N8 stand above "
+            ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N5 to N8 are above "
               "them"
             : "give a hexahedron eight nodes, a pentahedron N1 N2 N3 N4 N5 N5 N6 N6, a pyramid N5 four "
               "times, a tetrahedron N4 five times");

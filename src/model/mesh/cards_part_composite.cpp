@@ -25,17 +25,17 @@ const RegisterKeyword<Layered> part_composite{
      .title = &Layered::title,
      .many = false,
      .cards =
-         {{.fields = {{"PID", &Layered::pid, "-", "part id", required_id},
-                      {"ELFORM", &Layered::elform, "-",
-                       "formulation: 2 Belytschko-Tsay, 4 flat triangle, 16 2 x 2 points; 0: THEORY of "
-                       "*CONTROL_SHELL"},
-                      {"SHRF", &Layered::shrf, "-", "factor of transverse shear", {.standard = 1}},
-                      {"NLOC", &Layered::nloc, "-", "place of the nodes: 1 upper face, -1 lower, 0 middle"},
-                      {"MAREA", &Layered::marea, "M/L2", "mass per area besides that of the layers",
-                       at_least_0},
-                      {"HGID", &Layered::hgid, "-", "hourglass id", optional_id_of(IdSpace::hourglass)},
-                      {"ADPOPT", &Layered::adpopt, "-", "adaptivity", unsupported},
-                      {"THSHEL", &Layered::thshel, "-", "thermal shells", no_effect}}},
+         {{.fields =
+               {{"PID", &Layered::pid, "-", "part id", required_id},
+                {"ELFORM", &Layered::elform, "-",
+                 "formulation: 2 Belytschko-Tsay, 4 flat triangle, 16 2 x 2 points; 0: THEORY of "
+                 "*CONTROL_SHELL"},
+                {"SHRF", &Layered::shrf, "-", "factor of transverse shear", {.standard = 1}},
+                {"NLOC", &Layered::nloc, "-", "position of the nodes: 1 upper face, -1 lower, 0 middle"},
+                {"MAREA", &Layered::marea, "M/L2", "mass per area besides that of the layers", at_least_0},
+                {"HGID", &Layered::hgid, "-", "hourglass id", optional_id_of(IdSpace::hourglass)},
+                {"ADPOPT", &Layered::adpopt, "-", "adaptivity", unsupported},
+                {"THSHEL", &Layered::thshel, "-", "thermal shells", no_effect}}},
           {.fields = {{"MID1", &Layered::mid1, "-", "material of a layer", ply_material},
                       {"THICK1", &Layered::thick1, "L", "its thickness", at_least_0},
                       {"B1", &Layered::b1, "-", "angle of its material, degrees"},

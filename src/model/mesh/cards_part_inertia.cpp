@@ -25,11 +25,11 @@ const RegisterKeyword<Inertia> part_inertia{part_inertia_keyword()};
 
 }  // namespace
 
-/// The tensor turns with the file, unless it stands in axes of its own, which turn.
+/// The tensor turns with the file, unless it is in axes of its own, which turn.
 std::string turn_inertia(PartInertiaCard& card, const Affine& motion) {
   const bool mirrored = motion.linear().determinant() < 0;
   if (mirrored) card.vrx = -card.vrx, card.vry = -card.vry, card.vrz = -card.vrz;
-  if (card.ircs != 0) {  // the third of the local axes is the other way round
+  if (card.ircs != 0) {  // the third of the local axes is reversed
     if (mirrored) card.ixz = -card.ixz, card.iyz = -card.iyz;
     return {};
   }

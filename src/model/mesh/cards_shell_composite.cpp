@@ -26,7 +26,7 @@ const RegisterKeyword<Shell> element_shell_composite{
                "ELEMENT_SHELL_OFFSET_COMPOSITE_LONG"},
      .purpose =
          "layered shells: layers of each element, one point in the middle of each, from the lower face "
-         "up; two on a card, with _LONG one. They are there in the place of those of the part",
+         "up; two on a card, with _LONG one. They replace those of the part",
      .id_space = IdSpace::shell,
      .cards = {{.fields = {{"EID", &Shell::eid, "-", "element id", shell_id},
                            {"PID", &Shell::pid, "-", "part id", part_of_shell},
@@ -41,7 +41,7 @@ const RegisterKeyword<Shell> element_shell_composite{
                {.fields = {{"OFFSET",
                             &Shell::offset,
                             "L",
-                            "height of the middle surface over the nodes, in the place of NLOC",
+                            "height of the middle surface over the nodes, instead of NLOC",
                             {.width = 16}}},
                 .when = [](const Shell& e) { return e.has_offset(); }},
                {.fields = {{"MID1", &Shell::mid1, "-", "material of a layer", layer_material},

@@ -16,7 +16,7 @@ std::vector<std::set<Index>> nodes_of_parts(const Model& model) {
   std::vector<std::set<Index>> out(model.parts.size());
   for (const ModelSolid& solid : model.solids)
     for (const Index n : solid.all_corners())
-      if (n >= 0) out[static_cast<std::size_t>(solid.part)].insert(n);  // the deck has been told of others
+      if (n >= 0) out[static_cast<std::size_t>(solid.part)].insert(n);  // the deck has been reported others
   for (const ModelShell& shell : model.shells)
     for (const Index n : shell.node) out[static_cast<std::size_t>(shell.part)].insert(n);
   return out;

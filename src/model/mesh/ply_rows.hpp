@@ -5,7 +5,7 @@
 
 namespace courant {
 
-/// Layers as cards have them: of the layers 1, 3, 5, ..., where one stands on a line of all; the second: of
+/// Layers as cards have them: of the layers 1, 3, 5, ..., where one is on a line of all; the second: of
 /// 2, 4, 6, ...
 struct PlyRows {
   std::vector<Id> mid1{}, mid2{};

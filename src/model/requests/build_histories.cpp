@@ -9,7 +9,7 @@
 
 namespace courant {
 
-/// A curve of the interval takes the place of DT.
+/// A curve of the interval replaces DT.
 void ModelBuilder::build_output_curve(const Entry& card, std::string_view field, Id id, int ioopt,
                                       OutputTimes& out) {
   if (id == 0) return;
@@ -40,7 +40,7 @@ void ModelBuilder::check_curve(const Entry& card, std::string_view field, const 
           fmt::format("at most {:g} are counted; one state in each step is the most that is written", most));
 }
 
-/// Times that cannot be told apart, or too many to look at each.
+/// Times that cannot be distinguished, or too many to look at each.
 void ModelBuilder::check_interval(const Entry& card, std::string_view field, Real interval, Real most) {
   if (interval > 0 && model_.endcyc == 0 && model_.endtim > most * interval)
     error(card, field,

@@ -24,7 +24,7 @@ IdSpace set_space(SetKind kind) {
 
 IdSpace member_space(SetKind kind) {
   static constexpr IdSpace spaces[] = {IdSpace::node, IdSpace::part, IdSpace::shell, IdSpace::solid,
-                                       IdSpace::node};  // a segment is told by its nodes
+                                       IdSpace::node};  // a segment is reported by its nodes
   return spaces[static_cast<std::size_t>(kind)];
 }
 
@@ -170,7 +170,7 @@ CardOf<SetCard> members_card(SetKind kind, SetForm form) {
 constexpr std::vector<Id> SetCard::*columns[] = {&SetCard::ids, &SetCard::e2, &SetCard::e3, &SetCard::e4,
                                                  &SetCard::e5,  &SetCard::e6, &SetCard::e7, &SetCard::e8};
 
-/// Shifts the ids of sets, whose kind stands beside them.
+/// Shifts the ids of sets, whose kind is beside them.
 std::string shift_pairs(SetCard& card, const Conversion& conversion) {
   for (std::size_t row = 0; row < card.ids.size(); ++row)
     for (std::size_t k = 0; k < std::size(columns); k += 2) {
@@ -215,7 +215,7 @@ std::string purpose_of(SetKind kind, SetForm form) {
     case SetForm::advanced:
       return "all nodes of other sets of several kinds";
     case SetForm::intersect:
-      return fmt::format("{}s that stand in every one of several sets", word);
+      return fmt::format("{}s that are in every one of several sets", word);
     case SetForm::general:
       break;
   }

@@ -40,7 +40,7 @@ IdIndex index_of_ids(const std::vector<Entity>& entities) {
   return out;
 }
 
-/// "its nodes", "its sets", ...: what a set lacks that is told by nothing.
+/// "its nodes", "its sets", ...: what a set lacks that is reported by nothing.
 std::string nothing_listed(SetKind kind, SetForm form) {
   if (form == SetForm::general) return "give a row such as ALL or PART below the first card";
   const bool sets = form == SetForm::add || form == SetForm::advanced || form == SetForm::intersect;
@@ -335,14 +335,14 @@ const SetResolver::Members* SetResolver::other(const SetCard& card, std::string_
   }
   constexpr std::size_t deepest = 1000;
   if (it->second.state == State::open && path_.size() >= deepest) {
-    error(card, field, id, fmt::format("sets stand in sets more than {} deep", deepest),
+    error(card, field, id, fmt::format("sets are nested more than {} deep", deepest),
           "name the sets at the bottom themselves");
     return nullptr;
   }
   resolve(kind, id, it->second);
-  if (left_out_.contains({kind, id}))  // by a number in the text of a row that a parameter stands for
+  if (left_out_.contains({kind, id}))  // by a number in the text of a row that a parameter represents
     error(card, field, id, fmt::format("{} set {} has members that are not there", set_word(kind), id),
-          "the warning tells which");
+          "the warning names them");
   const Members& found = target(kind)[id];
   return found.empty() ? nullptr : &found;  // an empty set was refused already
 }

@@ -25,7 +25,7 @@ std::vector<std::string> set_words(SetKind kind);
 /// What the id in column k (E1 is 0) of a _GENERAL row numbers.
 IdSpace row_space(SetKind kind, std::string_view word, std::size_t k);
 
-/// What the code beside a set id of *SET_NODE_ADD_ADVANCED stands for.
+/// What the code beside a set id of *SET_NODE_ADD_ADVANCED represents.
 IdSpace advanced_space(Id type);
 
 inline void sort_unique(std::vector<Index>& members) {

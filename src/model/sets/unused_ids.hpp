@@ -18,7 +18,7 @@ struct UnusedIds {
   bool any() const { return !named.empty() || !nodes.empty(); }
 };
 
-/// By the tables: FieldRules::refers tells what a field's ids number. Particles use their nodes. Call before
+/// By the tables: FieldRules::refers states what a field's ids number. Particles use their nodes. Call before
 /// the cards of the mesh are released.
 UnusedIds find_unused_ids(const Deck& deck);
 

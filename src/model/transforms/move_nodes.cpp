@@ -9,7 +9,7 @@ namespace courant {
 
 namespace {
 
-/// Where a transformation asks for the places of nodes it matters when nodes are moved.
+/// Where a transformation asks for the positions of nodes it matters when nodes are moved.
 bool any_names_nodes(const Deck& deck) {
   for (const DefineTransformationCard& card : deck.all<DefineTransformationCard>())
     if (card.names_nodes()) return true;

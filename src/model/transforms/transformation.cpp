@@ -133,7 +133,7 @@ class Evaluation {
   Affine translate_by_nodes() {
     const auto from = node("A1", a(1)), to = node("A2", a(2));
     if (!from || !to) return Affine::Identity();
-    if (*from == *to) return error("A1", "the two nodes stand in one place, which is no direction");
+    if (*from == *to) return error("A1", "the two nodes are at one position, which is no direction");
     return Affine(Eigen::Translation3d(a(3) * (*to - *from).stableNormalized()));
   }
 
@@ -157,7 +157,7 @@ class Evaluation {
       p[k] = *found;
     }
     const auto out = placing({p[0], p[1], p[2]}, {p[3], p[4], p[5]});
-    return out ? *out : error("A1", "three of the six stand on one line");
+    return out ? *out : error("A1", "three of the six are on one line");
   }
 
   /// M11 to M44 on two lines below; a point as a row with a 1 behind it is multiplied by the matrix.
@@ -175,7 +175,7 @@ class Evaluation {
     }
     if (m.col(3) != Eigen::Vector4d(0, 0, 0, 1))
       return error("A3", "the last column of the matrix is not 0, 0, 0, 1",
-                   "it would make distances depend on the place");
+                   "it would make distances depend on position");
     Affine out = Affine::Identity();
     out.linear() = m.topLeftCorner<3, 3>().transpose();
     out.translation() = m.bottomLeftCorner<1, 3>().transpose();
@@ -188,7 +188,7 @@ class Evaluation {
   std::optional<Vec> named_point(const std::string& field, Real number) {
     const auto it = points_.find(number);
     if (it != points_.end()) return motion_ * it->second;
-    error(field, fmt::format("POINT {:g} does not stand above this line", number));
+    error(field, fmt::format("POINT {:g} is not above this line", number));
     return std::nullopt;
   }
 
@@ -221,7 +221,7 @@ class Evaluation {
 };
 
 /// Finds nodes for transformations. Those of files that are moved otherwise than the transformation's own
-/// file have no place yet.
+/// file have no position yet.
 Evaluation::NodeOfId node_finder(const Deck& deck, Diagnostics& diagnostics) {
   std::unordered_map<Id, const NodeCard*> nodes;
   const auto& cards = deck.all<Card>();
@@ -242,8 +242,8 @@ Evaluation::NodeOfId node_finder(const Deck& deck, Diagnostics& diagnostics) {
         if (it == nodes.end())
           return fail(fmt::format("node {} has no coordinates", id), "define it with *NODE");
         if (moved_by(*it->second) != moved_by(card))
-          return fail(fmt::format("node {} stands in a file that is moved otherwise than this one", id),
-                      "name nodes of the file in which the transformation stands");
+          return fail(fmt::format("node {} is in a file that is moved otherwise than this one", id),
+                      "name nodes of the file of the transformation");
         return Vec(it->second->x, it->second->y, it->second->z);
       };
 }

@@ -60,11 +60,11 @@ std::string turn_height(Table& card, const Affine& motion) {
   return {};
 }
 
-/// Layers of shells, told from the lower face up, would lie the other way round.
+/// Layers of shells, told from the lower face up, would lie reversed.
 template <typename Table>
 std::string refuse_mirror(Table&, const Affine& motion) {
   if (motion.linear().determinant() > 0) return {};
-  return "the file is mirrored, and layers of shells would lie the other way round";
+  return "the file is mirrored, and layers of shells would be reversed";
 }
 
 }  // namespace courant

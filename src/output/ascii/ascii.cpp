@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/version.hpp"
 #include "output/result_names.hpp"
 
 namespace courant {

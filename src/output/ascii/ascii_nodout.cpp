@@ -20,9 +20,9 @@ std::string row(Id id, std::initializer_list<Vec> vectors) {
   return out + "\n";
 }
 
-/// One state of nodout: displacement, velocity, acceleration and place of nodes, in global axes; then, where
-/// a node belongs to a rigid body or turns with shells and beams, its rotation. Velocities are those of the
-/// last half step.
+/// One state of nodout: displacement, velocity, acceleration and location of nodes, in global axes; then,
+/// where a node belongs to a rigid body or turns with shells and beams, its rotation. Velocities are those of
+/// the last half step.
 std::string nodout_text(const Sample& s, Real /*first_potential*/) {
   std::string out = head(s,
                          "x-disp     y-disp      z-disp      x-vel       y-vel       z-vel      x-accl      "

@@ -40,7 +40,7 @@ class Deflater : public BlockCompressor {
   std::string room_;
 };
 
-/// The .xz format. Literals are modelled by their place in a number of four bytes, which fits floats.
+/// The .xz format. Literals are modelled by their location in a number of four bytes, which fits floats.
 class Xz : public BlockCompressor {
  public:
   explicit Xz(int level) {

@@ -49,7 +49,7 @@ struct FieldState {
 /// are particles, segments, solids, and `fields.pvd` under a folder. All registry fields flagged `output` are
 /// written, reals as float32, plus `part` (deck number) and, for particles, `active` (1 or 0), unless the
 /// options choose otherwise. Places are float64 where float32 would be off by more than a thousandth of h.
-/// Particles stand in the order of their ids, so that a point keeps its place over time. Each array carries
+/// Particles are in the order of their ids, so that a point keeps its location over time. Each array carries
 /// its dimension (M, L, T) as VTK's UNITS_LABEL, each file its time as field data `TimeValue`.
 class FieldWriter {
  public:
@@ -59,7 +59,7 @@ class FieldWriter {
   /// Copies what a state holds; changes nothing. t: [T]. Throws std::out_of_range where a part index has no
   /// entry in part_ids.
   FieldState take(const World& world, Real t, int number) const;
-  /// Writes one state, and fields.pvd anew so that others can open what is there, even of a killed run. As
+  /// Writes one state, and fields.pvd again so that others can open what is there, even of a killed run. As
   /// the list grows that is done only when it lacks a sixteenth of the states or is a second old. Throws
   /// OutputError.
   void write(FieldState state);
@@ -68,7 +68,7 @@ class FieldWriter {
   int states() const { return states_; }
   std::int64_t bytes() const { return bytes_; }  ///< of all field files
 
-  /// The state of a run that stopped in error, for those who want to look: `fields/failed.vtp` and
+  /// The state of a run that stopped in error, for those that want to look: `fields/failed.vtp` and
   /// `fields/failed_shells.vtu`, which fields.pvd does not list. Active and halo particles whose places a
   /// float32 can hold; nothing where there is none. Other values may be NaN. Throws OutputError.
   void write_failed(const World& world, Real t);

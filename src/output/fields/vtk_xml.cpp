@@ -174,7 +174,7 @@ void VtkEncoder::add_array(const char* section, VtkArray array, const char* attr
 VtkEncoder::File VtkEncoder::encode(VtkDataSet data) {
   constexpr bool little = std::endian::native == std::endian::little;
   data_.clear();
-  // The encoding stands in a document type, not at AppendedData: only so short a tag is read by ParaView 5.11
+  // The encoding is in a document type, not at AppendedData: only so short a tag is read by ParaView 5.11
   // with an expat that holds back what it parses (CVE-2023-52425; Debian 12 since 2.5.0-1+deb12u2). meshio
   // reads no raw data behind such a tag, and no .vtp at all: grids are text.
   as_text_ = std::string_view(data.type) == "UnstructuredGrid";

@@ -44,7 +44,7 @@ struct VtkDataSet {
 };
 
 /// Turns data sets of one kind, one per state, into the bytes of files. VTK's own writer spends most of its
-/// time on the ranges of values and on text, and compresses anew what did not change since the last state.
+/// time on the ranges of values and on text, and compresses again what did not change since the last state.
 /// Here a block (4 KiB) with the same bytes as in the state before is taken from there, and an array whose
 /// values zlib can hardly shrink (those of a moving liquid) is stored as it is for some states before the
 /// next attempt. The bytes depend only on the data sets so far.
@@ -55,7 +55,7 @@ class VtkEncoder {
   struct File {
     std::string_view header, data;  ///< its bytes, one part after the other
   };
-  /// What stands in the file; valid until the next call. Throws std::bad_alloc.
+  /// What is in the file; valid until the next call. Throws std::bad_alloc.
   File encode(VtkDataSet data);
   /// What of the states so far decides how the next ones are packed: after a restart files have the bytes
   /// that they would have had.

@@ -1,6 +1,6 @@
 """Reads LS-DYNA's ASCII histories, of Courant and of LS-DYNA itself.
 
-Read are those of ASCII_NAMES: every one that `courant run` writes. The kind is told by the content, not by the name. Taken as they come: titles, legends, columns that newer versions append, slave and master for SURFA and
+Read are those of ASCII_NAMES: every one that `courant run` writes. The kind is reported by the content, not by the name. Taken as they come: titles, legends, columns that newer versions append, slave and master for SURFA and
 SURFB, exponents without E (0.1-100), stars for numbers that did not fit. Where a run was restarted and its times go back,
 the later states count.
 """
@@ -116,7 +116,7 @@ class AsciiFile:
 
     @classmethod
     def open(cls, file: str | PathLike[str], diagnostics: Diagnostics) -> AsciiFile | None:
-        """Faults are told with file and line; then there is None."""
+        """Faults are reported with file and line; then there is None."""
         path = str(file)
         text = _read_text(path, diagnostics)
         if text is None:
@@ -164,7 +164,7 @@ class AsciiFile:
         return None, f"{self.kind} has no '{asked.name}'", f"did you mean '{near}'?" if near else f"it has {_some(names)}"
 
     def dimension(self, key: AsciiKey) -> str:
-        """Dimension of a series in M, L, T; "-", "?", "ns" and "%" stand for themselves."""
+        """Dimension of a series in M, L, T; "-", "?", "ns" and "%" represent themselves."""
         return dimension_of(self.kind, key.name)
 
 

@@ -117,7 +117,7 @@ class Text:
         self.text, self.at = text, at
 
     def behind(self, word: str) -> Text:
-        """What stands behind a word. Raises AsciiFault where it is not there."""
+        """What is behind a word. Raises AsciiFault where it is not there."""
         at = self.text.find(word, self.at)
         if at < 0:
             raise AsciiFault(f"'{word}' is missing")
@@ -155,7 +155,7 @@ class Text:
         return value
 
     def time(self, width: int, fault: str = "no number for the time") -> float:
-        """A time must be a number: states could not be told apart."""
+        """A time must be a number: states could not be distinguished."""
         t = self.certain(width, fault)
         if not math.isfinite(t):
             raise AsciiFault("the time is no finite number")

@@ -55,7 +55,7 @@ def presentable(text: str) -> str:
 
 @dataclass
 class Diagnostics:
-    """Collects every message, so that all faults of a file are told at once."""
+    """Collects every message, so that all faults of a file are reported at once."""
 
     all: list[Diagnostic] = field(default_factory=list)
     errors: int = 0

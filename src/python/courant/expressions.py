@@ -1,6 +1,6 @@
 """Arithmetic expressions of suites and scenes: `0.5 * rho0 * U^2`, over numbers or whole arrays. The grammar is that of scenes: + - * / ^ (or **),
 parentheses, functions, names (or &name), and conditions: `x < 6 and y > 0` is 1 where it holds, else 0. A value that is not finite is a fault: strict evaluation raises `ExpressionFault`, evaluation over arrays
-gives NaN in its place."""
+gives NaN instead."""
 from __future__ import annotations
 
 import math
@@ -326,7 +326,7 @@ class Formula:
         return np.array(np.broadcast_to(np.asarray(out, dtype=float), (size,)))
 
     def __call__(self, *values: float) -> float:
-        """The value at one place; NaN where there is none."""
+        """The value at one location; NaN where there is none."""
         return float(self._node([*(float(v) for v in values), *self._values], False))
 
 

@@ -116,7 +116,7 @@ class FieldFile:
         """All before the data is XML once the file's tag is closed."""
         try:
             root = ElementTree.fromstring(head + b"</VTKFile>")
-        except (ElementTree.ParseError, ValueError) as fault:  # ValueError: an encoding that nobody knows
+        except (ElementTree.ParseError, ValueError) as fault:  # ValueError: an encoding that is unknown
             raise FieldFault("its head is damaged") from fault
         self._take_file(root.attrib)
         for section in root.iter():
@@ -285,7 +285,7 @@ def find_ids(wanted: np.ndarray, known: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, with_particles: bool = True) -> list[StateFiles]:
-    """The states in DIR/fields.pvd in order of time. Faults are told; then the list is empty."""
+    """The states in DIR/fields.pvd in order of time. Faults are reported; then the list is empty."""
     folder = Path(folder)
     file = folder / "fields.pvd"
     hint = "DIR must be the folder that `courant run -o DIR` wrote"
@@ -298,7 +298,7 @@ def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, wit
     states: dict[float, StateFiles] = {}
     try:
         root = ElementTree.parse(file).getroot()
-    except (ElementTree.ParseError, OSError, ValueError):  # ValueError: an encoding that nobody knows
+    except (ElementTree.ParseError, OSError, ValueError):  # ValueError: an encoding that is unknown
         root = ElementTree.Element("none")
     for entry in root.iterfind("Collection/*"):
         name, time = entry.get("file"), entry.get("timestep", "")
@@ -324,7 +324,7 @@ def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, wit
 
 
 def open_field(path: Path, diagnostics: Diagnostics) -> FieldFile | None:
-    """A field file; faults are told, and give None."""
+    """A field file; faults are reported, and give None."""
     if not path.is_file():
         diagnostics.error(path, "the file is missing", "fields.pvd names it; was the folder copied in full?")
         return None
@@ -336,7 +336,7 @@ def open_field(path: Path, diagnostics: Diagnostics) -> FieldFile | None:
 
 
 def read_array(file: FieldFile, section: str, name: str, components: int, diagnostics: Diagnostics) -> np.ndarray | None:
-    """An array of points as float64, shape (points,) or (points, components). Faults are told, and give None."""
+    """An array of points as float64, shape (points,) or (points, components). Faults are reported, and give None."""
     if file.components(section, name) != components:
         diagnostics.error(
             file.path,
@@ -355,7 +355,7 @@ def read_array(file: FieldFile, section: str, name: str, components: int, diagno
 def read_particles(
     state: StateFiles, arrays: Sequence[Wanted], diagnostics: Diagnostics, missing: Mapping[str, float] | None = None
 ) -> ParticleFrame | None:
-    """Particles of one state with further arrays. Faults are told; then there is None. `missing`: numbers for arrays that the file may lack, which
+    """Particles of one state with further arrays. Faults are reported; then there is None. `missing`: numbers for arrays that the file may lack, which
     do not come where they are optional."""
     file = open_field(Path(state.particles or ""), diagnostics)
     if file is None:
@@ -395,7 +395,7 @@ def read_particles(
 def read_walls(state: StateFiles, diagnostics: Diagnostics) -> np.ndarray:
     """Traces of the shells of one state in the plane z = constant; shape (shells, 4): x0, y0, x1, y1 [L].
 
-    The longest side of each shell as seen along z. Faults are told; then there are none.
+    The longest side of each shell as seen along z. Faults are reported; then there are none.
     """
     none = np.empty((0, 4))
     file = open_field(state.shells, diagnostics) if state.shells else None

@@ -1,4 +1,4 @@
-"""Checked writing of files, and the one place that opens what is written (tests/architecture/one_writer.py looks for others). A file carries its
+"""Checked writing of files, and the one location that opens what is written (tests/architecture/one_writer.py looks for others). A file carries its
 final name only once all of it is on the disk."""
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _fault(text: str) -> OSError:
 
 
 def _check(file: Path) -> None:
-    """Raises OSError where a result cannot take the place of what is there: a link, what is no file, an input."""
+    """Raises OSError where a result cannot replace what is there: a link, what is no file, an input."""
     try:
         known = file.lstat()
     except FileNotFoundError:

@@ -17,7 +17,7 @@ _LAST_LINE = re.compile(rb"\ncourant history file, crc32 ([0-9a-f]{8})\n\Z")
 
 
 def is_whole(data: bytes) -> bool:
-    """Whether the bytes of a history.h5 are those that were written: their CRC-32 stands behind them.
+    """Whether the bytes of a history.h5 are those that were written: their CRC-32 is behind them.
 
     HDF5's own library crashes on damaged files, so it is handed no others.
     """
@@ -49,7 +49,7 @@ class HistoryFile:
 
     @classmethod
     def open(cls, file: str | PathLike[str], diagnostics: Diagnostics) -> HistoryFile | None:
-        """Faults are told; then there is None."""
+        """Faults are reported; then there is None."""
         path = Path(file)
         if not path.is_file():
             diagnostics.error(path, "no histories here: the file is missing", "the deck needs a *DATABASE_GLSTAT card")

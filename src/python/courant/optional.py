@@ -23,7 +23,7 @@ _PACKAGES = {
 
 
 class MissingModule(ImportError):
-    """A module that is not there; the message tells what to install."""
+    """A module that is not there; the message states what to install."""
 
 
 def module(name: str) -> ModuleType:

@@ -49,7 +49,7 @@ class Registry(Generic[Function]):
 
 
 class LoadFault(Exception):
-    """A file of a user that cannot be loaded; the text tells why."""
+    """A file of a user that cannot be loaded; the text states why."""
 
 
 def load_file(file: str | Path) -> None:
@@ -64,6 +64,6 @@ def load_file(file: str | Path) -> None:
     sys.modules[name] = module  # as dataclasses of the file need it
     try:
         spec.loader.exec_module(module)
-    except Exception as fault:  # whatever the file does wrong is told to its user
+    except Exception as fault:  # whatever the file does wrong is reported to its user
         del sys.modules[name]
         raise LoadFault(f"'{file}': {type(fault).__name__}: {fault}") from fault

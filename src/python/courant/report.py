@@ -51,7 +51,7 @@ def _figure(figure: Any, caption: str) -> str:
 
 
 def _attempt(make: Callable[[], str], what: str) -> str:
-    """What a run did not write, or cannot be drawn here, is said in its place."""
+    """What a run did not write, or cannot be drawn here, is said instead."""
     try:
         return make()
     except CourantError as fault:

@@ -7,7 +7,7 @@ from typing import Any
 
 from .optional import module
 
-# Okabe and Ito's colours, which people who do not see all of them tell apart
+# Okabe and Ito's colours, which people who do not see all of them distinguish
 PALETTE = ("#0072b2", "#d55e00", "#008060", "#b0518a", "#b87a00", "#3a9bdc", "#666666")
 MARKERS = "s^Dv*P"
 LOOKS: dict[str, dict[str, Any]] = {
@@ -16,7 +16,7 @@ LOOKS: dict[str, dict[str, Any]] = {
     "points": {"linestyle": "none", "marker": "o", "markersize": 4},
     "line+points": {"linestyle": "-", "linewidth": 1.1, "marker": "o", "markersize": 3.5},
 }
-LOOKS["named"] = LOOKS["points"]  # the name stands beside the point
+LOOKS["named"] = LOOKS["points"]  # the name is beside the point
 FIELD_COLOURS = SPEED_COLOURS = "viridis"  # even in brightness, and for people who do not see all colours
 WALLS = {"colors": "black", "linewidths": 1.6, "capstyle": "projecting"}
 

@@ -1,4 +1,4 @@
-"""Values out of YAML maps, with every fault told at its place. Recipes and suites are read with it."""
+"""Values out of YAML maps, with every fault told at its location. Recipes and suites are read with it."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def is_scalar(node: Node) -> bool:
 
 
 def scalar_text(node: Node) -> str:
-    """The text of a scalar as it stands in the file, "" for anything else."""
+    """The text of a scalar as it is in the file, "" for anything else."""
     return str(node.value) if is_scalar(node) else ""
 
 
@@ -60,7 +60,7 @@ def as_flag(node: Node) -> bool | None:
 
 
 def load_yaml(file: str | Path, what: str, hint: str, diagnostics: Diagnostics) -> Node | None:
-    """The content of a YAML file as nodes with places. Faults go to `diagnostics`; then there is None.
+    """The content of a YAML file as nodes with locations. Faults go to `diagnostics`; then there is None.
 
     `what`: "recipe", for the message; `hint`: what such a file is.
     """
@@ -112,9 +112,9 @@ def keys_of(made: type) -> List[str]:
 
 
 class YamlMap:
-    """One map of a file. A fault of the map as a whole is told when it is made.
+    """One map of a file. A fault of the map as a whole is reported when it is made.
 
-    Values that are missing or wrong come as the default that the caller gives; a wrong one is told.
+    Values that are missing or wrong come as the default that the caller gives; a wrong one is reported.
     """
 
     def __init__(self, node: Node, name: str, file: str, diagnostics: Diagnostics) -> None:
@@ -167,7 +167,7 @@ class YamlMap:
         return self.get(key) is not None
 
     def scalar(self, node: Node, key: str) -> float | None:
-        """The number that a node is; a fault is told, and gives None."""
+        """The number that a node is; a fault is reported, and gives None."""
         value = as_number(node.value) if is_scalar(node) else None
         if value is None:
             self.error(node, f"'{self.name}.{key}' must be a number, got '{node.value if is_scalar(node) else 'a list'}'")
@@ -261,7 +261,7 @@ class YamlMap:
         return [self.scalar(one, key) or 0.0 for one in nodes]
 
     def steps(self, most: float = 1e5) -> List[float]:
-        """The places of this map: {from, to, step}."""
+        """The locations of this map: {from, to, step}."""
         self.allow(*_STEPS)
         start, end = self.number("from", required=True), self.number("to", required=True)
         step = self.positive("step", required=True)
@@ -288,6 +288,6 @@ class YamlMap:
         self.diagnostics.error(self.where(node), message, hint)
 
     def where(self, node: Node | None = None) -> Location:
-        """The place of a node, of the map itself if none is given."""
+        """The location of a node, of the map itself if none is given."""
         mark = (self.node if node is None else node).start_mark
         return Location(self.file, mark.line + 1, mark.column + 1) if mark else Location(self.file)

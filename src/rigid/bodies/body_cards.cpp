@@ -82,7 +82,7 @@ class BodyCardReader {
         fmt::format("part {} is merged into part {}, {}", pid, lead, deck_.place(merges.of(*part).card)),
         fmt::format("name part {}: this is about the whole body and its centre", lead));
   }
-  /// Axes of a system that stands still; 0: global.
+  /// Axes of a system that is at rest; 0: global.
   std::optional<Matrix> axes(const Entry& card, const char* field, Id id) {
     if (id == 0) return Matrix::Identity();
     const auto system = model_.coordinate_systems.find(id);
@@ -90,7 +90,7 @@ class BodyCardReader {
       return error(card, field, fmt::format("coordinate system {} does not exist", id),
                    "define it with *DEFINE_COORDINATE_SYSTEM");
     if (system->second.moves)
-      return error(card, field, fmt::format("system {} turns with nodes", id), "use one that stands still");
+      return error(card, field, fmt::format("system {} turns with nodes", id), "use a fixed one");
     return system->second.axes;
   }
   std::nullopt_t error(const Entry& card, const char* field, std::string message, std::string hint) {

@@ -271,7 +271,7 @@ class BodyBuilder {
     add_mass(one, any, b);
     return true;
   }
-  /// Shells without a thickness: of no matter where nothing can move them, which needs a place alone.
+  /// Shells without a thickness: of no matter where nothing can move them, which needs a position alone.
   bool add_weightless(const std::vector<const Member*>& members, const std::set<Index>& nodes, bool any,
                       RigidBody& b) {
     if (any || nodes.empty() || members.empty()) return any;

@@ -16,7 +16,7 @@ namespace courant {
 namespace {
 
 /// Nodes on a line have no inertia about it, nor does a force on them turn them about it: with any inertia
-/// there they move the same. Nodes at one place do not turn.
+/// there they move the same. Nodes at one position do not turn.
 void complete_inertia(RigidBody& b, Real size) {
   constexpr Real round_off = 1e-9;
   const Eigen::SelfAdjointEigenSolver<Matrix> own(b.J0);

@@ -6,8 +6,8 @@
 
 namespace courant {
 
-/// Integrals over a body of mass elements dm at places x with velocities v. Places count from `origin`, which
-/// should be near the body.
+/// Integrals over a body of mass elements dm at positions x with velocities v. Places count from `origin`,
+/// which should be near the body.
 struct MassIntegrals {
   Vec origin = Vec::Zero();
   Real m = 0;                      ///< of dm [M]

@@ -27,7 +27,7 @@ class BodyMerges {
   Index lead(Index part) const;
   /// That part first, then all that are merged into it, ascending; `part` alone where there are none.
   std::vector<Index> group(Index lead) const;
-  /// Whether mass and inertia of a part count. `given`: parts with *PART_INERTIA, which stand for what is
+  /// Whether mass and inertia of a part count. `given`: parts with *PART_INERTIA, which represent what is
   /// merged into them unless IFLAG says otherwise.
   bool counts(Index part, const std::set<Index>& given) const;
 

@@ -13,7 +13,7 @@ Matrix inertia_of_moments(const Matrix& second) {
   return second.trace() * Matrix::Identity() - second;
 }
 
-/// A mass at `place` that moves with v is at place + d, and moves with v + omega x d.
+/// A mass at `place` that moves with v is at position + d, and moves with v + omega x d.
 void shift_mass(Real mass, const Vec& place, const Vec& velocity, const Vec& d, const Vec& omega,
                 RigidBody& b) {
   const Vec r = place - b.x, far = r + d, faster = velocity + omega.cross(d);

@@ -16,7 +16,7 @@ bool all(const std::array<bool, 3>& a) {
   return a[0] && a[1] && a[2];
 }
 
-/// Body loads are linear in the place: a(x) = a(centre) + A (x - centre). The columns of A. [1/T2]
+/// Body loads are linear in the position: a(x) = a(centre) + A (x - centre). The columns of A. [1/T2]
 Matrix gradient_of(const BodyAcceleration::At& now, const RigidBody& b) {
   const Real size = std::sqrt(b.J0.trace() / b.m);
   Matrix A;

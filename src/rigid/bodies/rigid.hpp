@@ -36,7 +36,7 @@ struct RigidBody {
   std::vector<Index> parts;               ///< that one first, and those merged into it
   std::vector<Index> nodes;               ///< indices into World::nodes
   std::vector<Index> unweighed{};         ///< of them, whose mass is no part of m: that is given by a card
-  std::vector<Vec> X;                     ///< their places about the centre at t = 0 [L]
+  std::vector<Vec> X;                     ///< their positions about the centre at t = 0 [L]
   std::array<bool, 3> held{}, no_turn{};  ///< global axes without translation, rotation
   Index solids = 0;                       ///< how many of them it is made of
   Real volume = 0;                        ///< of these [L3]
@@ -106,7 +106,7 @@ class BodyTies {
   virtual bool tied(std::size_t body) const = 0;
   /// Once in a step, before anything strikes: adds to the bodies what joints do in it without that.
   virtual void begin(const Clock& clock) = 0;
-  /// By how much the velocity of place q of a body changes along n for an impulse along n there. [1/M]
+  /// By how much the velocity of position q of a body changes along n for an impulse along n there. [1/M]
   virtual Real give(std::size_t body, const Vec& q, const Vec& n) const = 0;
   /// Adds what joints do in answer to a force on a body, which it has got already. [ML/T2], [ML2/T2]
   virtual void answer(std::size_t body, const Vec& force, const Vec& moment) = 0;
@@ -169,8 +169,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   void start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }
-  /// Before the first step: the body of a node gets more mass, at a place; false where its inertia is given.
-  /// [L], [M], [ML2]
+  /// Before the first step: the body of a node gets more mass, at a position; false where its inertia is
+  /// given. [L], [M], [ML2]
   bool add_mass_at(Index node, const Vec& place, Real mass, Real inertia, World& world);
   std::vector<Index> unweighed_nodes() const;  ///< of all bodies, indices into World::nodes
   /// Force and moment are those on the free body; zero for bodies that are fixed.

@@ -101,7 +101,7 @@ class StiffnessReader {
 std::string turn_stiffness(JointStiffnessCard& card, const Affine& motion) {
   constexpr Real round_off = 1e-9;
   const Matrix A = motion.linear();
-  if (A.determinant() < 0) return "its angles would count the other way in a mirror";
+  if (A.determinant() < 0) return "its angles would change their sign in a mirror";
   const Matrix stretch = A.transpose() * A;
   const bool turned = (A / std::cbrt(A.determinant()) - Matrix::Identity()).norm() > round_off;
   if (turned &&

@@ -133,7 +133,7 @@ class JointReader {
     return own;
   }
 
-  /// Nodes of a pair are at one place but for the rounding of the deck: the middle counts for both, also
+  /// Nodes of a pair are at one position but for the rounding of the deck: the middle counts for both, also
   /// where they are a little apart.
   bool meet(const JointCard& card, std::size_t pair, Real size, Vec& middle) {
     constexpr Real rounding = 1e-4, digits = 1e-6,
@@ -149,14 +149,15 @@ class JointReader {
           diagnostics_, card, joint_fields[2 * pair + 1],
           message + fmt::format(", {:.2g} % of the joint: each body is held in the middle between them",
                                 100 * gap / size),
-          "give both the same place");
+          "give both the same position");
       return true;
     }
-    return error(card, 2 * pair + 1, message, "the nodes of a pair must be at the same place at the start");
+    return error(card, 2 * pair + 1, message,
+                 "the nodes of a pair must be at the same position at the start");
   }
 
-  /// What slides along its axis may have its nodes anywhere on that. True: they are not at one place, and all
-  /// is well; nothing: they are.
+  /// What slides along its axis may have its nodes anywhere on that. True: they are not at one position, and
+  /// all is well; nothing: they are.
   std::optional<bool> read_line(const JointCard& card, const Joint& joint, Real size) {
     constexpr Real rounding = 1e-4, digits = 1e-6;  // as above
     if (joint.kind != JointKind::screw && joint.kind != JointKind::cylindrical) return std::nullopt;
@@ -171,11 +172,12 @@ class JointReader {
     for (std::size_t k = 1; k < 2 * pairs; k += 2) {
       const Vec& foot = k == 5 ? place_[4] : place_[0];
       if (const Real beside = across(place_[k] - foot).norm(); !(beside <= most))
-        return error(card, k,
-                     fmt::format("node {} is {:.4g} beside {}", card.nodes()[k], beside,
-                                 k == 5 ? fmt::format("the line through {} along the axis", card.n5)
-                                        : fmt::format("the axis from {} to {}", card.n1, card.n3)),
-                     "nodes of a pair are at one place at the start, or one behind the other along the axis");
+        return error(
+            card, k,
+            fmt::format("node {} is {:.4g} beside {}", card.nodes()[k], beside,
+                        k == 5 ? fmt::format("the line through {} along the axis", card.n5)
+                               : fmt::format("the axis from {} to {}", card.n1, card.n3)),
+            "nodes of a pair are at one position at the start, or one behind the other along the axis");
     }
     if ((place_[3] - place_[1]).dot(axis) > 0) return true;
     return error(card, 3,
@@ -202,7 +204,7 @@ class JointReader {
     return false;
   }
 
-  /// Gears and motors, whose nodes are at places of their own.
+  /// Gears and motors, whose nodes are at positions of their own.
   bool read_apart(const JointCard& card, Joint& joint) {
     JointPlaces places;
     places.sixth = joint.kind == JointKind::rack_and_pinion && card.n6 != 0;
@@ -232,7 +234,7 @@ class JointReader {
     if (!(axis.norm() > least * size))
       return error(
           card, 2,
-          fmt::format("nodes {} and {} are at the same place: the joint has no axis", card.n1, card.n3),
+          fmt::format("nodes {} and {} are at the same position: the joint has no axis", card.n1, card.n3),
           "N1 to N3 is the axis");
     joint.axes_a.col(2) = axis.normalized();
     joint.axes_a.col(0) = Vec(joint.axes_a.col(2)).unitOrthogonal();
@@ -242,7 +244,7 @@ class JointReader {
       const Vec arm = beside - at, across = arm - arm.dot(Vec(joint.axes_a.col(2))) * joint.axes_a.col(2);
       if (!(across.norm() > least * size))
         return error(card, 4, fmt::format("node {} is on the axis from {} to {}", card.n5, card.n1, card.n3),
-                     "N5 and N6 are beside it, and tell how far the bodies turn about it");
+                     "N5 and N6 are beside it, and give the rotation of the bodies about it");
       joint.axes_a.col(0) = across.normalized();
     }
     joint.axes_a.col(1) = Vec(joint.axes_a.col(2)).cross(Vec(joint.axes_a.col(0)));
@@ -257,7 +259,7 @@ class JointReader {
     for (const auto& [k, axis] : {std::pair(std::size_t{2}, u), std::pair(std::size_t{3}, w)})
       if (!(axis.norm() > least * size))
         return error(card, k,
-                     fmt::format("nodes {} and {} are at the same place: the joint has no axis",
+                     fmt::format("nodes {} and {} are at the same position: the joint has no axis",
                                  card.nodes()[k - 2], card.nodes()[k]),
                      "N1 to N3 is the axis in the first body, N2 to N4 in the second");
     const Real cosine = u.normalized().dot(w.normalized());
@@ -316,7 +318,7 @@ bool add_joints(const Deck& deck, const Model& model, std::shared_ptr<RigidBodie
         diagnostics, cards[misfits.front()], "",
         "joints of a closed loop, or what holds its bodies, almost say the same twice, and contradict "
         "each other a little: the joints of this mechanism are penalty springs, which open a little",
-        "make axes parallel and places meet to all digits; take spherical and cylindrical joints "
+        "make axes parallel and positions equal to all digits; take spherical and cylindrical joints "
         "where revolute ones say the same twice; or ask for exact joints by LMF 1 of *CONTROL_RIGID");
   constexpr Real rounding = 1e-6, of_rest_energy = 1e-20;  // below: no motion that anybody gave
   const bool fits = std::abs(before - after) <=

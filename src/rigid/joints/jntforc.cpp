@@ -12,7 +12,7 @@ namespace {
 struct DatabaseJntforc : HistoryInterval {};
 const RegisterKeyword<DatabaseJntforc> database_jntforc{history_interval<DatabaseJntforc>(
     "DATABASE_JNTFORC",
-    "interval of jntforc: force and moment of each joint on its second body, at its place there")};
+    "interval of jntforc: force and moment of each joint on its second body, at its position there")};
 
 std::vector<JointForce> joints_of(const World& world) {
   std::vector<JointForce> out;

@@ -1,17 +1,17 @@
 #pragma once
-// Equations of gears, racks and pulleys: rates of turning about axes at different places are in a fixed
+// Equations of gears, racks and pulleys: rates of turning about axes at different positions are in a fixed
 // ratio. They cannot be written as c(x, q) = 0 alone; what a step leaves is summed in Joint::turned.
 #include "rigid/joints/joint_rows.hpp"
 
 namespace courant {
 
 /// Gears (s = -1 where they turn against each other) and pulleys (s = 1): R2/R1 (omega_B.e_B - f) = s
-/// (omega_A.e_A - f), f the rate at which the line from A's place to B's turns about parallel axes, 0 about
-/// others. So a carrier may turn, and what bearings pass to it is right.
+/// (omega_A.e_A - f), f the rate at which the line from A's position to B's turns about parallel axes, 0
+/// about others. So a carrier may turn, and what bearings pass to it is right.
 struct PlacedGears {
   Vec arm_a, arm_b;  ///< from the centres to the axes' places
   Vec e_a, e_b;      ///< axes
-  Vec across, t;     ///< the centre line across the axes [L], how B's place moves as it turns
+  Vec across, t;     ///< the centre line across the axes [L], how B's position moves as it turns
   Real distance = 0;
 
   PlacedGears(const Joint& joint, const BodyPose& a, const BodyPose& b);

@@ -10,8 +10,8 @@ namespace {
 
 /// A joint where its bodies are now.
 struct PlacedJoint {
-  Vec arm_a, arm_b;  ///< from the centres to the joint's place in each body
-  Vec d;             ///< from A's place to B's
+  Vec arm_a, arm_b;  ///< from the centres to the joint's position in each body
+  Vec d;             ///< from A's position to B's
   Matrix axes_a, axes_b;
 
   PlacedJoint(const Joint& joint, const BodyPose& a, const BodyPose& b) {

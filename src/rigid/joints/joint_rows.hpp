@@ -28,14 +28,14 @@ enum class JointKind {
   pulley
 };
 
-/// How many pairs of nodes define a joint: of the first they are at one place at t = 0, and of the others,
+/// How many pairs of nodes define a joint: of the first they are at one position at t = 0, and of the others,
 /// too, unless the joint is universal, a motor or a gear.
 std::size_t pairs_of(JointKind kind);
-/// Whether a curve tells how far B turns or moves as seen from A.
+/// Whether a curve states how far B turns or moves as seen from A.
 constexpr bool is_motor(JointKind kind) {
   return kind == JointKind::rotational_motor || kind == JointKind::translational_motor;
 }
-/// Whether the axes of the two bodies are at different places, and turns of one move the other.
+/// Whether the axes of the two bodies are at different positions, and turns of one move the other.
 constexpr bool is_gear(JointKind kind) {
   return kind == JointKind::gears || kind == JointKind::rack_and_pinion || kind == JointKind::pulley;
 }
@@ -49,7 +49,7 @@ struct Joint {
   std::string title;
   JointKind kind = JointKind::spherical;
   std::size_t a = 0, b = 0;                    ///< bodies
-  Vec at_a = Vec::Zero(), at_b = Vec::Zero();  ///< the joint's place in each [L]
+  Vec at_a = Vec::Zero(), at_b = Vec::Zero();  ///< the joint's position in each [L]
   /// Columns: t1, t2 across the axis, the axis e. Of A and of B: one direction at t = 0, but for the axes of
   /// a universal joint and of gears.
   Matrix axes_a = Matrix::Identity(), axes_b = Matrix::Identity();
@@ -62,7 +62,7 @@ struct Joint {
   Real turned = 0;
   JointDrive drive;
   Real driven = 0, coming = 0;  ///< motor: the drive's until(t), over(t, dt)
-  Real start = 0;               ///< translational motor: of B's place along the axis at t = 0 [L]
+  Real start = 0;               ///< translational motor: of B's position along the axis at t = 0 [L]
   Real ratio = 1, sense = 1;    ///< gears, pulley: R2/R1; 1 where both turn the same way, else -1 [-]
   bool carried = false;         ///< gears, pulley: axes are parallel, and turns count from their centre line
 };

@@ -9,7 +9,7 @@
 namespace courant {
 
 /// Moments that resist the turning of bodies against each other: springs and dampers by curves, friction that
-/// gives way elastically up to its largest moment, stops.
+/// yields elastically up to its largest moment, stops.
 class JointStiffnesses : public Impact, public EnergyTerm, public TimeLimit, public Restartable {
  public:
   JointStiffnesses(std::vector<JointStiffness> joints, std::shared_ptr<RigidBodies> bodies)

@@ -22,8 +22,8 @@ constexpr bool can_yield(const Joint& joint) {
 /// of their equations at t^n are found with which the equations hold at t^(n+1): Lagrange multipliers on
 /// positions (Ryckaert, Ciccotti and Berendsen 1977), so that places do not drift apart and no stiffness but
 /// that of what hangs in a joint limits the step. Where joints say the same twice, as in closed loops, some
-/// equations are left out, and their forces are 0. Where they contradict each other, as the places of a deck
-/// may in closed loops, all joints but motors and gears become penalty springs.
+/// equations are left out, and their forces are 0. Where they contradict each other, as the positions of a
+/// deck may in closed loops, all joints but motors and gears become penalty springs.
 class Joints : public BodyTies,
                public Impact,
                public TimeLimit,
@@ -105,11 +105,11 @@ class Joints : public BodyTies,
   void soften(std::size_t at);
   /// Joints of closed loops with a row that adds almost nothing to others.
   std::vector<std::size_t> find_misfits() const;
-  /// Sizes against which lengths of a joint count: of coordinates, whose round-off nobody can mend, and of
+  /// Sizes against which lengths of a joint count: of coordinates, whose round-off nobody can fix, and of
   /// the smaller of the bodies that can move [L].
   std::array<Real, 2> sizes(const Joint& joint) const;
   void find_rooms(const std::vector<JointRow>& rows);
-  /// What the coming step should change: gaps within round-off are mended slowly, as their noise would be
+  /// What the coming step should change: gaps within round-off are repaired slowly, as their noise would be
   /// all of the force where steps are short.
   Eigen::VectorXd wanted(const std::vector<JointRow>& rows) const;
   /// Force with which the coming step changes equations as wanted, as far as they can be met.
@@ -146,7 +146,7 @@ class Joints : public BodyTies,
   Eigen::VectorXd free_;             ///< of each row: what it would give if nothing held or drove its bodies
   std::vector<Real> room_;           ///< of each row: what round-off may leave
   std::vector<Real> too_far_;        ///< of each row: a gap that is no joint any more
-  std::vector<Vec> force_, moment_;  ///< of the last step, on B at its place [ML/T2], [ML2/T2]
+  std::vector<Vec> force_, moment_;  ///< of the last step, on B at its position [ML/T2], [ML2/T2]
 };
 
 }  // namespace courant

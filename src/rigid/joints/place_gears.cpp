@@ -28,7 +28,7 @@ std::optional<JointFault> no_axis(const JointCard& card, const JointPlaces& plac
   for (const std::size_t k : {std::size_t{2}, std::size_t{3}})
     if (!((places.x[k] - places.x[k - 2]).norm() > least * places.size))
       return JointFault{k,
-                        fmt::format("nodes {} and {} are at the same place: the joint has no axis",
+                        fmt::format("nodes {} and {} are at the same position: the joint has no axis",
                                     card.nodes()[k - 2], card.nodes()[k]),
                         "N1 to N3 is the axis in the first body, N2 to N4 in the second"};
   return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<JointFault> place_motor(const JointCard& card, const JointPlaces& 
   const Vec axis = places.x[2] - places.x[0], other = places.x[3] - places.x[1];
   if (!parallel(axis, other) || axis.dot(other) < 0)
     return JointFault{3, "N2 to N4 has another direction than N1 to N3",
-                      "both tell the axis of the motor, once in each body"};
+                      "both give the axis of the motor, once in each body"};
   set_axis(joint.axes_a, axis), joint.axes_b = joint.axes_a;
   if (joint.kind == JointKind::translational_motor)
     joint.start = Vec(joint.axes_a.col(2)).dot(places.x[1] - places.x[0]);

@@ -172,9 +172,10 @@ std::vector<AutomaticSwitch> switches_at_restart(const Deck& deck) {
 
 void warn_of_switch_at_restart(const Deck& deck, Diagnostics& diagnostics) {
   if (const auto cards = switches_at_restart(deck); !cards.empty())
-    deck.warning(diagnostics, cards.front(), cards.front().first_field,
-                 "parts are switched when a run goes on from a restart file; this one starts anew",
-                 "run the deck with --restart, or switch parts by *DEFORMABLE_TO_RIGID_AUTOMATIC");
+    deck.warning(
+        diagnostics, cards.front(), cards.front().first_field,
+        "parts are switched when a run goes on from a restart file; this one starts from the beginning",
+        "run the deck with --restart, or switch parts by *DEFORMABLE_TO_RIGID_AUTOMATIC");
 }
 
 bool is_released(const Deck& deck, const Model& model, Index part) {

@@ -38,7 +38,7 @@ std::vector<Index> parts_to_deformable(const Deck& deck, const Model& model, con
 /// What *RIGID_DEFORMABLE_R2D, _D2R and _CONTROL ask for when a run goes on from a restart file: a switch for
 /// each that is there, in this order, so that one may be added at a later restart.
 std::vector<AutomaticSwitch> switches_at_restart(const Deck& deck);
-/// A run that starts anew does nothing of that: a warning.
+/// A run that starts again does nothing of that: a warning.
 void warn_of_switch_at_restart(const Deck& deck, Diagnostics& diagnostics);
 
 /// Whether some switch makes a part deformable, so that it has elements that deform.

@@ -89,7 +89,7 @@ class PlaneBuilder {
   }
 
   /// What comes into the box later, from an inlet or from where nothing is solved, must not have come through
-  /// the planes before: when it is there is told by its straight way.
+  /// the planes before: when it is there is reported by its straight path.
   void check_arrivals(std::size_t k, const Region* box) {
     constexpr Real anywhere = 1e300;
     const Particles& p = world_.particles;
@@ -118,13 +118,12 @@ class PlaneBuilder {
     const Vec n = head - tail;
     const bool in_plane = world_.dim == 3 || std::abs(n[2]) <= parallel * n.norm();
     if (n.norm() > 0 && in_plane) return true;
-    diagnostics_.error(
-        deck_.where(card),
-        fmt::format("{}: {}", deck_.keyword(card),
-                    in_plane ? "tail and head of the vector are the same point"
-                             : "in 2D the plane must stand upright on the plane of the particles: "
-                               "the vector points out of it"),
-        "give a vector from a point on the plane into the material");
+    diagnostics_.error(deck_.where(card),
+                       fmt::format("{}: {}", deck_.keyword(card),
+                                   in_plane ? "tail and head of the vector are the same point"
+                                            : "in 2D the plane must be normal to the plane of the particles: "
+                                              "the vector points out of it"),
+                       "give a vector from a point on the plane into the material");
     return false;
   }
 
@@ -155,7 +154,7 @@ class PlaneBuilder {
       return;
     }
     diagnostics_.error(deck_.where(*cards_[a]),
-                       fmt::format("{}: the plane stands neither upright on that of {} nor opposite to it",
+                       fmt::format("{}: the plane is neither normal to that of {} nor opposite to it",
                                    deck_.keyword(*cards_[a]), place(*cards_[b])),
                        "planes with ghost particles must be at right angles, or face each other");
   }
@@ -180,7 +179,7 @@ class PlaneBuilder {
         if (d >= 0 && (planes_[k].period == 0 || d < planes_[k].period)) continue;
         diagnostics_.error(
             deck_.where(model_.sph[i].card),
-            fmt::format("{}: particle {} stands behind the {}plane of {}", deck_.keyword(model_.sph[i].card),
+            fmt::format("{}: particle {} is behind the {}plane of {}", deck_.keyword(model_.sph[i].card),
                         p.id[i], d < 0 ? "" : "second ", place(*cards_[k])),
             d < 0 ? "the vector of the plane points into the material"
                   : fmt::format("the second plane is {:.6g} [L] from the first, the particle "
@@ -212,7 +211,7 @@ class PlaneBuilder {
     for (const Index i : wrapped) {
       if (nearest[i] > rounding_of_decks * plane.period) continue;
       diagnostics_.error(deck_.where(model_.sph[i].card),
-                         fmt::format("{}: particle {} stands on a plane of {}, which is the same place as "
+                         fmt::format("{}: particle {} is on a plane of {}, which is the same position as "
                                      "the other one, where another particle is",
                                      deck_.keyword(model_.sph[i].card), p.id[i], place(*cards_[k])),
                          "leave out the particles on one of the two planes");

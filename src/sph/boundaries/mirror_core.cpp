@@ -13,15 +13,14 @@ namespace {
 
 /// What a particle right at a mirror lacks. The slope of the kernel falls to nothing where a particle meets
 /// its own image, so nothing would hold it off the mirror: water that hits one leaves a row of particles on
-/// it, each in one place with its image, where the pressure is several times too high. Here the slope towards
-/// one's own image stays as steep as it is at half a spacing, or where it is steepest (R = 2/3 for the cubic
-/// spline), for all distances below (Thomas and Couchman 1992 do so for all pairs). Farther away particles,
-/// and those of a flow along the mirror, notice nothing. Continuity takes the same slope as pressure does, so
-/// that energy is kept.
-/// A kernel with a kink pushes most where particle and image meet, and lacks nothing; but pair loops know one
-/// side of the kink only, which is wrong over the step in which a particle goes through the mirror.
-/// What tension does behind the mirror the reflection takes back (`mirror_pull`): it would make energy of
-/// each crossing.
+/// it, each in one position with its image, where the pressure is several times too high. Here the slope
+/// towards one's own image stays as steep as it is at half a spacing, or where it is steepest (R = 2/3 for
+/// the cubic spline), for all distances below (Thomas and Couchman 1992 do so for all pairs). Farther away
+/// particles, and those of a flow along the mirror, notice nothing. Continuity takes the same slope as
+/// pressure does, so that energy is kept. A kernel with a kink pushes most where particle and image meet, and
+/// lacks nothing; but pair loops know one side of the kink only, which is wrong over the step in which a
+/// particle goes through the mirror. What tension does behind the mirror the reflection takes back
+/// (`mirror_pull`): it would make energy of each crossing.
 class MirrorCore : public Rate {
  public:
   MirrorCore(const SphSettings& s, const World& world, std::vector<GhostPlane> mirrors)

@@ -1,5 +1,5 @@
 #pragma once
-// Cubes of space, for what is worked out once for all places of each.
+// Cubes of space, for what is worked out once for all positions of each.
 #include <cmath>
 #include <cstdint>
 
@@ -11,7 +11,7 @@ class SpaceCells {
  public:
   explicit SpaceCells(Real size) : size_(size) {}
   Real size() const { return size_; }
-  /// A number that tells apart all cells within 2^20 of the origin along each axis.
+  /// A number that distinguishes all cells within 2^20 of the origin along each axis.
   std::uint64_t of(const Vec& x) const {
     constexpr int bits = 21;  // for each axis
     std::uint64_t key = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// Fields that several SPH passes share, each described in one place. A field exists once a pass asks for it.
+// Fields that several SPH passes share, each described in one position. A field exists once a pass asks for
+// it.
 #include <string>
 
 #include "state/entities.hpp"
@@ -23,7 +24,7 @@ inline Field<Real>& spin(Particles& p) {
 inline Field<Real>& law_stress(Particles& p) {
   return p.fields.add<Real>({.name = "law_stress", .dimension = "M/LT2", .components = 6});
 }
-/// Against tension, as it acts between particles that stand at their first distance
+/// Against tension, as it acts between particles that are at their first distance
 inline Field<Real>& artificial_stress(Particles& p) {
   return p.fields.add<Real>({.name = "artificial_stress",
                              .dimension = "M/LT2",
@@ -190,7 +191,7 @@ inline Field<Real>& wall_velocity(Particles& p) {
 inline Field<Real>& dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "dissipation", .dimension = "ML2/T3"});
 }
-/// That of bulk viscosity alone, of the step before until it is worked out anew
+/// That of bulk viscosity alone, of the step before until it is worked out again
 inline Field<Real>& bulk_dissipation(Particles& p) {
   return p.fields.add<Real>({.name = "bulk_dissipation", .dimension = "ML2/T3"});
 }

@@ -83,7 +83,7 @@ class PairGeometry {
   }
 
   using Sources = std::array<Contributions::Source, Tasks::most>;
-  /// What particles of the block [begin, end) got as partners; `sources` is room for it.
+  /// What particles of the block [begin, end) got as partners; `sources` is space for it.
   Contributions shares(Index begin, Index end, Sources& sources) const {
     note_access(contributions_);
     const Tasks& tasks = neighbours_->tasks();

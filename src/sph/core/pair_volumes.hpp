@@ -7,7 +7,7 @@
 namespace courant {
 
 /// While threads work on the rates, density already changes: the loops of the rates read the volumes before
-/// that, those of the forces the volumes after. With older ones in the forces, pressure would give back less
+/// that, those of the forces the volumes after. With older ones in the forces, pressure would return less
 /// work than it took, in proportion to the step.
 class PairVolumes : public Material, public Refresh, public Restartable {
  public:

@@ -62,7 +62,7 @@ class SphTimeLimit : public Reduction, public TimeLimit {
       if (p.state[i] == particle_waiting || comes_in(p, i))
         out = {
             std::min(out.dt, tssfac_ * std::min(p.h[i] / (p.c[i] + p.v.vec(i).norm()), viscous_limit(p, i))),
-            "particles on their way in"};
+            "entering particles"};
     return out;
   }
   bool comes_in(const Particles& p, Index i) const {

@@ -25,7 +25,8 @@ inline NeighbourLists lists_of(const Neighbours& neighbours, Index begin, Index 
   return {neighbours.list(block), neighbours.starts(block), begin, end};
 }
 
-/// Calls `f(std::bool_constant)` with a run-time bool: one place where a choice becomes a specialised loop.
+/// Calls `f(std::bool_constant)` with a run-time bool: one position where a choice becomes a specialised
+/// loop.
 template <class F>
 decltype(auto) with_bool(bool value, F&& f) {
   if (value) return f(std::true_type{});

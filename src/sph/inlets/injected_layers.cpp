@@ -168,9 +168,9 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
       if ((x - place).norm() > near) continue;
       return diagnostics.error(
           deck.where(inlet.card),
-          fmt::format("{}: particle {} stands {:.4g} [L] upstream of the inlet, where those that enter wait",
+          fmt::format("{}: particle {} is {:.4g} [L] upstream of the inlet, where entering particles wait",
                       deck.keyword(inlet.card), node.id, upstream),
-          "leave the room upstream of an inlet empty");
+          "leave the space upstream of an inlet empty");
     }
   }
 }
@@ -187,7 +187,7 @@ void report_same_place(const Injection& a, const Injection& b, const Deck& deck,
       return diagnostics.error(
           deck.where(b.card),
           fmt::format("{}: particles enter where those of {} do", deck.keyword(b.card), deck.place(a.card)),
-          "inlets at one place must have the same velocity, and one must end before the other begins");
+          "inlets at one position must have the same velocity, and one must end before the other begins");
     }
 }
 
@@ -292,7 +292,7 @@ std::string injections_text(const Injections& injections, const Model& model) {
       if (!inlet.rate.steady())
         return fmt::format("{} at a time as curve {} has it", inlet.places.size(), inlet.rate.curve());
       if (!inlet.factor.empty())
-        return fmt::format("rows of {} places at speeds of {:.4g} to {:.4g}", inlet.places.size(),
+        return fmt::format("rows of {} positions at speeds of {:.4g} to {:.4g}", inlet.places.size(),
                            inlet.speed() * *std::min_element(inlet.factor.begin(), inlet.factor.end()),
                            inlet.speed() * *std::max_element(inlet.factor.begin(), inlet.factor.end()));
       return fmt::format("{} particles every {:.4g} [T]", inlet.places.size(), inlet.spacing / inlet.speed());

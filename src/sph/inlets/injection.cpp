@@ -65,7 +65,7 @@ class Reader {
         centre = system->origin, normal = system->axes.col(2);
     if (diagnostics_.errors() > errors) return;
     if (!(normal.norm() > 0))
-      return error(c, "CID", "nothing tells the normal of the inlet", "give CID, or DNX, DNY and DNZ");
+      return error(c, "CID", "the normal of the inlet is not defined", "give CID, or DNX, DNY and DNZ");
     normal.normalize();
     if (!is_upright(c, normal)) return;
     centre += c.offst * normal;
@@ -95,7 +95,7 @@ class Reader {
     const bool round = c.radius > 0;
     if (c.nsid != 0)
       error(c, "NSID", fmt::format("expected nothing beside {}", round ? "RADIUS" : "XLEN and YLEN"),
-            "tell the inlet by nodes or by its size");
+            "define the inlet by nodes or by its size");
     if (round && (c.xlen > 0 || c.ylen > 0))
       error(c, "XLEN", "expected nothing beside RADIUS", "an inlet is a circle or a rectangle");
     if (!system)
@@ -124,7 +124,7 @@ class Reader {
 
   InletShape shape_of_nodes(const DefineSphInjection& c, const Vec& normal) {
     if (c.nsid == 0) {
-      error(c, "NSID", "nothing tells where the particles enter",
+      error(c, "NSID", "the position of the inlet is not defined",
             "name a set of nodes, or give RADIUS or XLEN and YLEN on the second card");
       return {};
     }
@@ -171,13 +171,12 @@ class Reader {
       }
     }
     if (side || c.area > 0) return true;
-    error(
-        c, "AREA",
-        nodes.size() == 1
-            ? fmt::format("set {} has one node, which tells no area", c.nsid)
-            : fmt::format("the nodes of set {} do not stand on a square lattice{}, which would tell the area",
-                          c.nsid, dim_ == 2 ? " (in 2D: at equal distances on a line)" : ""),
-        "give AREA, of which each node gets the same share");
+    error(c, "AREA",
+          nodes.size() == 1
+              ? fmt::format("set {} has one node, which defines no area", c.nsid)
+              : fmt::format("the nodes of set {} are not on a square lattice{}, which would define the area",
+                            c.nsid, dim_ == 2 ? " (in 2D: at equal distances on a line)" : ""),
+          "give AREA, of which each node gets the same share");
     return false;
   }
 
@@ -207,7 +206,7 @@ class Reader {
       deck_.warning(diagnostics_, c, "AREA",
                     fmt::format("nodes are {:.4g} [L] apart, but the share of AREA makes layers {:.4g} apart",
                                 shape.spacing, inlet.spacing),
-                    "leave AREA blank where nodes stand on a square lattice");
+                    "leave AREA blank where nodes are on a square lattice");
     out_.push_back(std::move(inlet));
   }
 
@@ -245,7 +244,7 @@ class Reader {
     if (!found->second.moves) return &found->second;
     error(card, "CID",
           fmt::format("coordinate system {} moves with nodes, which an inlet cannot follow", cid),
-          "define one that stands still");
+          "define a fixed one");
     return nullptr;
   }
 

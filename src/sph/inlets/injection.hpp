@@ -21,18 +21,18 @@ struct Injection {
   Vec v = Vec::Zero();         ///< [L/T], times `rate` and `factor`
   InletRate rate{};            ///< over time
   std::vector<Vec> places{};   ///< of a layer, in the plane [L]
-  std::vector<Real> factor{};  ///< on v at each place; empty: 1 everywhere
+  std::vector<Real> factor{};  ///< on v at each position; empty: 1 everywhere
   FreeSurface surface{};
-  Real area = 0;            ///< of all places [L2], in 2D per unit of depth [L]
+  Real area = 0;            ///< of all positions [L2], in 2D per unit of depth [L]
   Real spacing = 0;         ///< of the layers, along the normal [L]
-  Real cell = 0;            ///< distance of places in the plane [L]
+  Real cell = 0;            ///< distance of positions in the plane [L]
   Real begin = 0, end = 0;  ///< TBEG and TEND [T]
-  Real reach = 0;           ///< how far upstream layers must stand to fill the kernel [L]
+  Real reach = 0;           ///< how far upstream layers must be to fill the kernel [L]
   Index particles = 0;      ///< that were made
 
   /// Through the plane, before `rate` and `factor` [L/T]
   Real speed() const { return v.dot(plane.normal); }
-  /// Whether its particles stand on a lattice already where they wait, as all move alike.
+  /// Whether its particles are on a lattice already where they wait, as all move alike.
   bool is_lattice() const { return rate.steady() && factor.empty() && !surface.on; }
 };
 
@@ -57,7 +57,7 @@ std::vector<Injection> read_injections(const Deck& deck, const Model& model, int
 Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& diagnostics);
 
 /// Marks the particles that were made as waiting, and has `neighbours` let them in. Call while particles
-/// stand in the order of the model.
+/// are in the order of the model.
 void make_injected_wait(const Injections& injections, World& world, Neighbours& neighbours);
 
 /// Gives particles that come in under pressure the density at which they have it, and the mass of their share

@@ -75,7 +75,7 @@ KeywordOf<T> simplified(std::string name, std::string purpose, FieldOf<T> flow) 
                  {"RADIUS", &T::radius, "L", "inlet radius", {.required = true, .check = Check::positive}},
                  {"PSIZE", &T::psize, "L", "particle spacing", {.required = true, .check = Check::positive}},
                  {"OFFST", &T::offst, "L", "offset of the inlet along its normal"},
-                 {"CID", &T::cid, "-", "inlet system (origin, z normal); 0: the second card tells",
+                 {"CID", &T::cid, "-", "inlet system (origin, z normal); 0: by the second card",
                   id_of(IdSpace::coordinate_system)},
                  {"NID", &T::nid, "-", "node that the inlet follows", unsupported_id_of(IdSpace::node)}}},
            {.fields = {{"XC", &T::xc, "L", "x of the centre of the inlet", point},

@@ -77,7 +77,7 @@ class InflowReader {
       const Curve* curve = curve_of(card, "LCPROF", card.lcprof);
       if (curve && *std::min_element(curve->ordinate.begin(), curve->ordinate.end()) < 0)
         refuse(card, "LCPROF", fmt::format("curve {} falls below 0: water would flow out", card.lcprof),
-               "an inlet lets water in; leave out the places where it flows back");
+               "an inlet lets water in; leave out the positions where it flows back");
     }
     return diagnostics_.errors() == errors;
   }
@@ -90,7 +90,7 @@ class InflowReader {
     const BodyAcceleration loads = acceleration_of_particles(model_);
     const auto up = upward(loads, inlet.plane.point, inlet.begin, model_.endtim, inlet.part);
     if (!up) {
-      refuse(card, card.surf != 0 ? "SURF" : "PROF", "without gravity nothing tells which way is up",
+      refuse(card, card.surf != 0 ? "SURF" : "PROF", "without gravity the upward direction is not defined",
              "give gravity by *LOAD_BODY, or leave the keyword out");
       return;
     }

@@ -24,8 +24,8 @@ int cells(Real length, Real size) {
 
 std::optional<Real> lattice_side(const std::vector<Vec>& points, const Vec& normal, int dim) {
   if (points.size() < 2) return {};
-  // Of the side, for neighbours, and for places, where what the side errs adds up. A hexagonal lattice is off
-  // by 0.13.
+  // Of the side, for neighbours, and for positions, where what the side errs adds up. A hexagonal lattice is
+  // off by 0.13.
   constexpr Real tolerance = 0.01, place_tolerance = 0.1;
   const std::vector<Real> distances = nearest(points);
   const auto [least, most] = std::minmax_element(distances.begin(), distances.end());

@@ -1,5 +1,5 @@
 #pragma once
-// Where the particles of a layer stand in the plane of an inlet.
+// Where the particles of a layer are in the plane of an inlet.
 #include <optional>
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace courant {
 /// Places in the plane of an inlet, and what part of its area each has.
 struct InletShape {
   std::vector<Vec> places;  ///< [L]
-  Real area = 0;            ///< of one place [L2], in 2D per unit of depth [L]
+  Real area = 0;            ///< of one position [L2], in 2D per unit of depth [L]
   Real spacing = 0;         ///< between neighbours in the plane [L]
 };
 

@@ -30,7 +30,7 @@ COURANT_KERNEL_INLINE Real positive(Real x) {
 template <class T>
 concept NumberOrPack = !std::is_integral_v<T>;
 
-/// Added to r^2 relative to h^2, so that two particles in one place give zero force instead of 0/0.
+/// Added to r^2 relative to h^2, so that two particles in one position give zero force instead of 0/0.
 inline constexpr Real tiny_distance2 = 1e-24;
 
 /// h^n for the small powers kernels need.

@@ -21,7 +21,7 @@ inline constexpr std::array every_kernel{KernelChoice::cubic_spline,     KernelC
                                          KernelChoice::quadratic_spline, KernelChoice::quartic_spline,
                                          KernelChoice::wendland_c2,      KernelChoice::wendland_c4};
 
-/// Calls `f` with the chosen kernel's struct: one place where the choice becomes a type.
+/// Calls `f` with the chosen kernel's struct: one position where the choice becomes a type.
 template <class F>
 decltype(auto) with_kernel(KernelChoice choice, F&& f) {
   switch (choice) {

@@ -155,7 +155,7 @@ void read_strength(const Deck& deck, const Model& model, SphSettings& s, Diagnos
   refuse(s.volume_tau > 0, "*COURANT_VOLUME_CONTROL", "it changes densities that stress knows nothing of");
   refuse(s.reinitialisation.every > 0, "*COURANT_DENSITY_REINITIALISATION",
          "it changes densities that stress knows nothing of");
-  refuse(s.shift.strength > 0, "ISHIFT of *CONTROL_SPH", "stresses belong to the places of the material");
+  refuse(s.shift.strength > 0, "ISHIFT of *CONTROL_SPH", "stresses belong to material points");
   refuse(s.reverse_correction, "REVERSE of *COURANT_RENORMALISATION",
          "it is a correction of pressures alone");
   refuse(s.xsph > 0, "*COURANT_XSPH", "stresses follow the velocities, not the smoothed ones");

@@ -15,8 +15,7 @@ struct EosParts {
   std::vector<char> mine;      ///< per part of the model
   bool all_parts = false;      ///< every particle is mine: no test per particle
   std::vector<Real> rho0, pc;  ///< per part: reference density [M/L3], tensile cut-off (<= 0) [M/LT2]
-  const Field<Real>* least_pressure =
-      nullptr;  ///< of each particle, in place of pc where the law uses energy
+  const Field<Real>* least_pressure = nullptr;  ///< of each particle, instead of pc where the law uses energy
 };
 
 /// The density of a particle is none that its law holds for. `rho_limit`: up to which the law holds [M/L3]

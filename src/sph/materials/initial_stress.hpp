@@ -12,7 +12,7 @@ std::optional<Real> compression_at(const EosLaw& law, Real rho0, Real p);
 /// Gives the particles that *INITIAL_STRESS_SPH names the density at which they have the pressure
 /// p = -(SIGXX + SIGYY + SIGZZ)/3; their masses stay. Refuses by name: what is no particle, stresses that
 /// differ by direction, two cards for one particle, tension beyond PC, pressures that the equation of state
-/// does not reach. Call while particles stand in the order of the model.
+/// does not reach. Call while particles are in the order of the model.
 void set_initial_pressures(const Deck& deck, const Model& model, const std::vector<PartMaterial>& materials,
                            World& world, Diagnostics& diagnostics);
 

@@ -170,8 +170,8 @@ class StrengthStress : public Material {
   }
 
   /// Compression, change of relative volume, and rate and spin of the middle of the step, in the axes at its
-  /// end. Pair sums give the gradient over the places at the end, L: over those of the middle it is L (1 - L
-  /// dt/2)^-1. The trace is that of the density; the rest of it is alike in all directions, in 2D, too, so
+  /// end. Pair sums give the gradient over the positions at the end, L: over those of the middle it is L (1 -
+  /// L dt/2)^-1. The trace is that of the density; the rest of it is alike in all directions, in 2D, too, so
   /// that it does no work on the deviator: no force of the deviator belongs to it.
   void find_rates(const Particles& p, Real dt, Real rho0, Index begin, Index end, Points64& at) const {
     for (Index i = begin, k = 0; i < end; ++i, ++k) {

@@ -10,7 +10,7 @@ namespace courant {
 /// Instead of infinity, which no field may hold. [M/LT2]
 inline constexpr Real no_cutoff = std::numeric_limits<Real>::lowest();
 
-/// *COURANT_ARTIFICIAL_STRESS, and what cannot stand beside strength: refused by name. Behind all other
+/// *COURANT_ARTIFICIAL_STRESS, and what cannot be beside strength: refused by name. Behind all other
 /// settings.
 void read_strength(const Deck& deck, const Model& model, SphSettings& settings, Diagnostics& diagnostics);
 

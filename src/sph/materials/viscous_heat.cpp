@@ -10,8 +10,8 @@ namespace {
 /// F^n, made of v^{n-1/2}, acts in the kick from there to v^{n+1/2}: half of it takes energy from the
 /// velocities before, half from those behind. So the step whose velocities are v^{n-1/2} gets half of what
 /// F^n takes from them, and half of what F^{n-1} does. With all of F^n the energy of shocks does not close:
-/// velocities change much within a step there. What F^{n-1} takes from the change of velocities is told by
-/// the force on each particle, whose sum is that of pairs.
+/// velocities change much within a step there. What F^{n-1} takes from the change of velocities is reported
+/// by the force on each particle, whose sum is that of pairs.
 class ViscousHeat : public Rate, public Refresh {
  public:
   explicit ViscousHeat(World& world)

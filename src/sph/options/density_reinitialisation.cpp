@@ -21,7 +21,7 @@ const RegisterKeyword<CourantDensityReinitialisation> reinitialisation_keyword{
     courant_density_reinitialisation_table()};
 
 /// Least second moment of the neighbours' places about their mean, over h^2, with which least squares fit a
-/// plane. It is 0.32 inside (cubic spline, 2D), 0.1 at a surface, 0 where particles stand in a line.
+/// plane. It is 0.32 inside (cubic spline, 2D), 0.1 at a surface, 0 where particles are in a line.
 constexpr Real least_moment = 0.02;
 
 /// Every NCYC steps rho_i becomes the value at x_i of what fits the densities rho_j of the neighbours with
@@ -30,7 +30,7 @@ constexpr Real least_moment = 0.02;
 /// deviations about weighted means instead of the moment matrix: a change by
 ///   <delta> - <d> . C^-1 <(d - <d>) delta>,  C = <(d - <d>)(d - <d>)>,  delta = rho_j - rho_i, d = x_j -
 ///   x_i,
-/// of which Shepard has the first term. So has least squares where the places of neighbours do not tell a
+/// of which Shepard has the first term. So has least squares where the positions of neighbours do not tell a
 /// gradient: counted as `density_mls_to_shepard`.
 class DensityReinitialisation : public Rate {
  public:

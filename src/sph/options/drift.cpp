@@ -86,7 +86,7 @@ void Drift::correct(Particles& p, Index i, const Vec& shift, Sums& sums) {
   p.v.add(i, change);
 }
 
-// What holds a particle off a mirror counts its way by its velocity (mirror_core.cpp).
+// What holds a particle off a mirror counts its path by its velocity (mirror_core.cpp).
 Vec along_mirrors(const std::vector<GhostPlane>& mirrors, const Vec& x, Real h, Vec u) {
   for (const GhostPlane& plane : mirrors)
     if (depth(plane, x) < 0.5 * h) u -= u.dot(plane.normal) * plane.normal;

@@ -18,7 +18,7 @@ struct DriftRules {
   std::string name;                                      ///< of the pass
   std::string statistics;                                ///< what its numbers in the summary begin with
   bool first = true;                                     ///< of several in a scene
-  bool correct = false;                                  ///< the velocity changes to that of the new place
+  bool correct = false;                                  ///< the velocity changes to that of the new position
   Real longest = std::numeric_limits<Real>::infinity();  ///< in one step, of h [-]
 };
 
@@ -35,7 +35,7 @@ class Drift : public Relocation, public Refresh {
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
   void finish(World& world, const Clock& clock) override;
-  /// Contact marks anew who is near its walls.
+  /// Contact marks again who is near its walls.
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
 
  private:
@@ -59,7 +59,7 @@ class Drift : public Relocation, public Refresh {
   std::vector<Sums> sums_;
 };
 
-/// Density follows the places also where these drift, as the mass of a particle is given. The work that
+/// Density follows the positions also where these drift, as the mass of a particle is given. The work that
 /// pressure does by it, p dV with the mean of both pressures, is not done on anything: it counts as
 /// dissipated.
 class DriftDensity : public Reduction, public EnergyTerm {

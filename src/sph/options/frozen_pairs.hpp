@@ -13,14 +13,15 @@
 namespace courant {
 
 /// How long a window lasts: until two particles may have moved EPS h towards each other, by the speed of the
-/// fastest, or lists are built anew.
+/// fastest, or lists are built again.
 class Window {
  public:
   explicit Window(Real eps) : eps_(eps) {}
   /// Begins a window if none is open; true if it did. h [L]; the last step dt [T]; how far particles may move
   /// before lists end the window, `room` [L]: beyond that they are not complete.
   bool open(Real h, Real dt, Real room);
-  /// From now to the middle of the window: gradients of that place err by the square of EPS, not by EPS. [T]
+  /// From now to the middle of the window: gradients of that position err by the square of EPS, not by EPS.
+  /// [T]
   Real ahead() const { return ahead_; }
   bool is_open() const { return open_; }
   void close() { open_ = false; }

@@ -15,8 +15,8 @@ namespace courant {
 
 namespace {
 
-/// Takes the place of the viscous stress, which does not see velocities that change from row to row: where a
-/// wall holds the lowest row, rows pair off. Heat is that of the velocities before the kick; what the kick
+/// Takes the position of the viscous stress, which does not see velocities that change from row to row: where
+/// a wall holds the lowest row, rows pair off. Heat is that of the velocities before the kick; what the kick
 /// changes of it, by the force of walls, too, is added behind it; particles that are driven it does not
 /// change.
 class PairViscosity : public Rate, public EnergyTerm {

@@ -27,8 +27,8 @@ using RenormalLoop = void (*)(const RenormalArrays&, const NeighbourLists&);
 /// Sets moment and gradient.
 RenormalLoop renormal_rates_loop(KernelChoice kernel, int dim);
 /// f_i -= V_i sum_j V_j (p_i (B_i - 1) grad W(h_i) + p_j (B_j - 1) grad W(h_j)): what the corrected force has
-/// beyond the plain one; `reverse`: with p_j in the place of p_i and p_i in that of p_j;
-/// `stress`: with p - tau in the place of p.
+/// beyond the plain one; `reverse`: with p_j instead of p_i and p_i in that of p_j;
+/// `stress`: with p - tau instead of p.
 enum class RenormalForce { pressure, reverse, stress };
 RenormalLoop renormal_forces_loop(KernelChoice kernel, int dim, bool uniform_h, RenormalForce what);
 

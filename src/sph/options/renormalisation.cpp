@@ -214,12 +214,11 @@ bool is_renormalised(int form) {
 
 void warn_of_smoothing(const Deck& deck, const ControlSph& c, Diagnostics& diagnostics) {
   if (c.form != 15 && c.form != 16) return;
-  deck.warning(
-      diagnostics, c, "FORM",
-      fmt::format("'{}' smooths densities and pressures in a way that is not published: taken as FORM "
-                  "{}, without smoothing",
-                  c.form, c.form == 15 ? 5 : 6),
-      "*COURANT_DENSITY_DIFFUSION evens out the noise of pressures");
+  deck.warning(diagnostics, c, "FORM",
+               fmt::format("'{}' smooths densities and pressures by an unpublished method: taken as FORM "
+                           "{}, without smoothing",
+                           c.form, c.form == 15 ? 5 : 6),
+               "*COURANT_DENSITY_DIFFUSION evens out the noise of pressures");
 }
 
 void read_correction(const Deck& deck, const ControlSph* c, SphSettings& s, Diagnostics& diagnostics) {

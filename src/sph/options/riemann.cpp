@@ -68,7 +68,7 @@ class RiemannMomentum : public Rate {
 
 /// Largest step by the decay of the particle's pressure. An explicit step holds up to 2/lambda, and lambda,
 /// the fastest decay of all patterns of pressure, was 1.02 to 1.49 of the largest decay of one particle's: on
-/// square and cubic lattices of h/dx 1 to 2, the same with two particles in each place, disturbed ones and
+/// square and cubic lattices of h/dx 1 to 2, the same with two particles in each position, disturbed ones and
 /// particles strewn at random.
 constexpr Real most_decay = 1.25;
 
@@ -133,7 +133,7 @@ void warn_of_viscosity(const Deck& deck, Diagnostics& diagnostics) {
   for (const T& c : deck.all<T>())
     if (c.q1 > off || c.q2 > off)
       deck.warning(diagnostics, c, c.q1 > off ? "Q1" : "Q2",
-                   "is not used: *COURANT_RIEMANN takes the place of artificial viscosity",
+                   "is not used: *COURANT_RIEMANN replaces artificial viscosity",
                    "set Q1 and Q2 to 1.0E-20, or leave *COURANT_RIEMANN out");
 }
 
@@ -150,7 +150,7 @@ void read_riemann(const Deck& deck, const Model& model,
     refused = true;
   };
   if (std::holds_alternative<BulkViscosity>(s.viscosity))
-    refuse("beside IAVIS 1 of *CONTROL_SPH: the flux takes the place of artificial viscosity",
+    refuse("beside IAVIS 1 of *CONTROL_SPH: the flux replaces artificial viscosity",
            "use IAVIS 0, or leave the keyword out");
   if (s.density_diffusion > 0)
     refuse("beside *COURANT_DENSITY_DIFFUSION: the flux diffuses density itself", "leave one of the two out");

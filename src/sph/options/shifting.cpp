@@ -22,7 +22,7 @@ namespace {
 const RegisterKeyword<CourantShifting> shifting_keyword{courant_shifting_table()};
 
 /// u_i = -A h |v_i| grad C_i, grad C_i = sum_j V_j (1 + R (W_ij/W(dx))^4) grad W_ij (Lind et al. 2012 with
-/// the coefficient of Skillen et al. 2013). What stands at a surface is not shifted, by div r = sum_j V_j
+/// the coefficient of Skillen et al. 2013). What is at a surface is not shifted, by div r = sum_j V_j
 /// (x_j - x_i).grad W_ij; what has such a neighbour moves along the surface only, and the less the more it
 /// lacks.
 class Shifting : public Rate, public Restartable {

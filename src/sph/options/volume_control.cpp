@@ -20,7 +20,7 @@ namespace {
 
 const RegisterKeyword<CourantVolumeControl> volume_control_keyword{courant_volume_control_table()};
 
-/// Slope of the sum of kernels, times h, from which on a particle stands at a surface; with the cubic spline.
+/// Slope of the sum of kernels, times h, from which on a particle is at a surface; with the cubic spline.
 constexpr Real surface_slope = 0.4;
 /// How much a particle is surrounded, below which it is spray and from which on water.
 constexpr Real spray = 0.3, water = 0.5;
@@ -32,9 +32,10 @@ constexpr Real looks_per_tau = 50;
 ///   d rho_i/dt += rho_i w_i (sum_j V_j W_ij / S - 1) / TAU,
 /// S the sum of a square lattice, w_i = max(0, 1 - (h |sum_j V_j grad W_ij| / 0.4)^2), which is 0 at
 /// surfaces; for other kernels than the cubic spline 0.4 is scaled by what that slope is at a plane surface.
-/// Drops of one particle, of two in one place and rows of particles have no slope either, and a sum far below
-/// S: w_i falls to 0 where -sum_j V_j r dW/dr / dim, 1 in water and 0.5 at its surface, falls from 0.5 to
-/// 0.3. Else their density would fall to a third, and what tension then held together would be thrown apart.
+/// Drops of one particle, of two in one position and rows of particles have no slope either, and a sum far
+/// below S: w_i falls to 0 where -sum_j V_j r dW/dr / dim, 1 in water and 0.5 at its surface, falls from 0.5
+/// to 0.3. Else their density would fall to a third, and what tension then held together would be thrown
+/// apart.
 class VolumeControl : public Rate, public Restartable {
  public:
   VolumeControl(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -54,7 +55,7 @@ class VolumeControl : public Rate, public Restartable {
       wall_fill_ = &sph_fields::wall_fill(world.particles);
     }
     const Particles& p = world.particles;
-    const Index i = p.size() - 1;  // stands for all
+    const Index i = p.size() - 1;  // represents all
     if (i >= 0) lattice_ = lattice_sum(p.h[i] / std::pow(p.m[i] / p.rho[i], 1.0 / dim_));
   }
   std::string name() const override { return "volume control"; }

@@ -64,7 +64,7 @@ class Xsph : public Rate {
   DriftArrays a_{};
 };
 
-/// The smoothed velocity takes the place of the velocity: once the step is known, the force that makes the
+/// The smoothed velocity replaces the velocity: once the step is known, the force that makes the
 /// kick bring u_i as well, m_i u_i/dt. Particles that are held or driven keep their velocity. Heat is counted
 /// as that of viscosity between pairs.
 class VelocitySmoothing : public Impact, public EnergyTerm {

@@ -122,7 +122,8 @@ class FrozenOutletReader {
     if (*std::min_element(curve->ordinate.begin(), curve->ordinate.end()) > 0) return true;
     return refuse(
         card, "LCVEL",
-        fmt::format("curve {} falls to 0 or below: what left would stand before the box", card.lcvel),
+        fmt::format("curve {} falls to 0 or below: particles that leave would remain before the box",
+                    card.lcvel),
         "let it stay above 0");
   }
 

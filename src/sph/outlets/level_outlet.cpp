@@ -209,7 +209,7 @@ class LevelOutletBuilder {
           fmt::format("gravity at the start has {} across the flow, and the level is "
                       "measured along one",
                       across == 0 ? "no component" : "two components"),
-          "give gravity by one *LOAD_BODY across the flow; one more along it may stand for a slope");
+          "give gravity by one *LOAD_BODY across the flow; one more along it may represent a slope");
     const Real down = g[o.up] < 0 ? -1 : 1;
     o.gravity = [loads, up = o.up, down](Real t) {
       return std::max(Real(0), down * loads.at(t).everywhere()[up]);

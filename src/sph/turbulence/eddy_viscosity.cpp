@@ -66,7 +66,7 @@ void read_eddy_viscosity(const Deck& deck, const Model& model, const Particles& 
   if (s.dim == 2 && std::abs(n[2]) > 1e-6 * n.norm())
     return deck.error(
         diagnostics, *c, "VHZ",
-        "in 2D the wall must stand upright on the plane of the particles: the vector points out of it",
+        "in 2D the wall must be normal to the plane of the particles: the vector points out of it",
         "give tail and head the same z");
   s.mixing_length = {.most = c->lmax, .cmu = c->cmu, .kappa = c->kappa, .wall = tail};
   if (n.norm() > 0) {

@@ -45,7 +45,7 @@ struct TurbulenceFields {
   }
 };
 
-/// Sums over neighbours, from places and velocities after the last motion.
+/// Sums over neighbours, from positions and velocities after the last motion.
 class TurbulenceSums : public Rate {
  public:
   TurbulenceSums(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,

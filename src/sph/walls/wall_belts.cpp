@@ -36,7 +36,7 @@ class BeltReader {
       belt.curve = *curve;
     }
     if (belt.motion.v.isZero(0) && belt.motion.omega.isZero(0))
-      return error(c, "VX", "the belt has no velocity", "give VX, VY, VZ, or a turn WX, WY, WZ on card 2");
+      return error(c, "VX", "the surface has no velocity", "give VX, VY, VZ, or a turn WX, WY, WZ on card 2");
     if (world_.dim == 2 && (c.vz != 0 || c.wx != 0 || c.wy != 0))
       return error(c,
                    c.vz != 0   ? "VZ"
@@ -87,10 +87,10 @@ class BeltReader {
     if (walls_.friction[k].cf < 0)
       return refuse("do not support particles", "name them by *COURANT_WALL_SUPPORT");
     if (walls_.belts.of_segment[k] >= 0)
-      return refuse("belong to another belt", "name each part by one card");
+      return refuse("belong to another *COURANT_WALL_BELT", "name each part by one card");
     if (segment_moves(world_, s))
-      return refuse("move themselves, and a belt stands",
-                    "hold them by CON1 and CON2 of *MAT_RIGID, or leave the belt out");
+      return refuse("move themselves, and the shells of this keyword are fixed",
+                    "hold them by CON1 and CON2 of *MAT_RIGID, or omit *COURANT_WALL_BELT");
     walls_.belts.of_segment[k] = static_cast<int>(walls_.belts.belts.size());
     const auto node = world_.segments.nodes(s);
     Vec middle = Vec::Zero();
@@ -122,7 +122,7 @@ std::string keep_turn(CourantWallBelt& card, const Affine& motion) {
   const bool turns = card.wx != 0 || card.wy != 0 || card.wz != 0;
   const Matrix a = motion.linear();
   if (!turns || (a.determinant() > 0 && (a.transpose() * a).isIdentity(1e-9))) return {};
-  return "a belt that turns can be moved and turned, but not stretched or "
+  return "a rotating surface can be moved and rotated, but not stretched or "
          "mirrored";
 }
 
@@ -134,8 +134,8 @@ void read_wall_belts(const Deck& deck, const Model& model, const World& world, S
   if (turbulence && static_cast<TurbulenceModel>(turbulence->model) == TurbulenceModel::k_epsilon)
     return deck.error(diagnostics, cards.front(), "SURFB",
                       "k-epsilon takes the law of the wall from the velocity of the shells, "
-                      "not of belts",
-                      "use another MODEL of *COURANT_TURBULENCE, or leave the belt out");
+                      "not of moving surfaces",
+                      "use another MODEL of *COURANT_TURBULENCE, or omit *COURANT_WALL_BELT");
   BeltReader reader(deck, model, world, settings, diagnostics);
   for (const CourantWallBelt& c : cards) reader.add(c);
   if (settings.walls.belts.belts.empty()) settings.walls.belts.of_segment.clear();

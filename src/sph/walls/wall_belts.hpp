@@ -1,5 +1,6 @@
 #pragma once
-// Surfaces of walls that move along themselves while their shells stand: belts, lids, rims of drums.
+// Surfaces of walls that move along themselves while their shells stand: moving surfaces, lids, rims of
+// drums.
 #include <array>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct WallMotion {
 /// count. They are not on one line. [L], [L/T]
 WallMotion rigid_motion(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, int dim);
 
-/// Of each segment the belt that it belongs to; where there is none, `of_segment` is empty.
+/// Of each segment the moving surface that it belongs to; where there is none, `of_segment` is empty.
 struct WallBelts {
   struct Belt {
     WallMotion motion;  ///< at factor 1

@@ -7,7 +7,7 @@ namespace courant {
 
 namespace {
 
-constexpr Real pieces_per_reach = 4;  ///< how finely faces stand in the cells in which they are looked for
+constexpr Real pieces_per_reach = 4;  ///< how finely faces are in the cells in which they are looked for
 
 /// The point of a face next to x.
 Vec next_on(const WallSurface::Face& face, const Vec& x) {
@@ -48,7 +48,7 @@ WallDistance::WallDistance(std::vector<Index> segments, Real reach, Real cell, s
                            const World& world)
     : segments_(std::move(segments)), reach_(reach), cells_(cell), planes_(std::move(planes)) {
   for (const Index s : segments_) any_moves_ |= segment_moves(world, s);
-  // from the middle of a cell what is within the reach of any place in it must be seen
+  // from the middle of a cell what is within the reach of any position in it must be seen
   surface_.emplace(world, segments_, reach_ / pieces_per_reach,
                    (1 + 1 / pieces_per_reach) * reach_ + (any_moves_ ? 0 : cell), planes_);
 }
@@ -70,8 +70,8 @@ void WallDistance::follow(const World& world, std::int64_t rebuilds) {
   }
 }
 
-/// No place of the cell is farther from its middle than half of its diagonal, r; so the face next to a place
-/// is at most 2 r farther from the middle than the face next to that.
+/// No place of the cell is farther from its middle than half of its diagonal, r; so the face next to a
+/// position is at most 2 r farther from the middle than the face next to that.
 std::vector<Index> WallDistance::next_to_cell(const Vec& middle) const {
   const Vec from = surface_->in_plane(middle);
   const std::vector<Index> around = surface_->faces_around(middle);

@@ -25,8 +25,9 @@ class WallDistance {
   /// `cell`: of the order of the spacing of particles [L].
   WallDistance(std::vector<Index> segments, Real reach, Real cell, std::vector<GhostPlane> planes,
                const World& world);
-  /// Once a step: where walls are now, or where none moves, which faces are next to the places of particles.
-  /// `rebuilds`: of the lists of neighbours; between two of them particles stay near where they were.
+  /// Once a step: where walls are now, or where none moves, which faces are next to the positions of
+  /// particles. `rebuilds`: of the lists of neighbours; between two of them particles stay near where they
+  /// were.
   void follow(const World& world, std::int64_t rebuilds);
   bool any_moves() const { return any_moves_; }
   NearestWall nearest(const Vec& x) const;
@@ -38,7 +39,7 @@ class WallDistance {
 
   std::vector<Index> segments_;
   Real reach_;
-  SpaceCells cells_;  ///< walls that are held are looked at from few, each time anew
+  SpaceCells cells_;  ///< walls that are held are looked at from few, each time again
   std::vector<GhostPlane> planes_;
   std::unordered_map<std::uint64_t, std::vector<Index>> next_to_;  ///< faces that may be next, by cell
   std::int64_t rebuilds_ = -1;

@@ -19,7 +19,7 @@ COURANT_INLINE Pack is_positive(const Pack& a) {
 
 /// How a way passes an edge, in the plane across it.
 struct Passing {
-  Pack share;       ///< of the way, that a wall takes which it meets or not
+  Pack share;       ///< of the path, that a wall takes which it meets or not
   Pack by_start;    ///< slope of the share, with the distance from the edge at the way's start [1/L]
   Pack by_end;      ///< and at its end
   Pack over, into;  ///< the direction of these slopes, along n and m
@@ -108,7 +108,7 @@ struct EightEdges {
   }
 
  private:
-  /// Whether it stands in what two walls enclose.
+  /// Whether it is in what two walls enclose.
   static bool is_strange(const WallMirrorArrays& a, const WallEdge& edge, Index i, Real back) {
     bool behind = edge.walls == 2;
     for (int k = 0; k < edge.walls; ++k) {
@@ -125,7 +125,7 @@ struct EightEdges {
   }
 };
 
-/// What walls about an edge do to the ways of a pair.
+/// What walls about an edge do to the paths of a pair.
 template <int Dim>
 struct Ways {
   Pack there[2];            ///< of j, as `height` of i
@@ -137,7 +137,7 @@ struct Ways {
       there[k] = edges.height[k] - dot(edges.n[k], d);
       inward[k] = edges.inward[k] - dot(edges.m[k], d);
     }
-    // no way passes the edge to who stands in what walls enclose
+    // no way passes the edge to who is in what walls enclose
     const Pack free = is_positive(max(there[0], there[1]));
     for (int k = 0; k < 2; ++k) {
       const Pack &h = edges.height[k], &e = edges.inward[k];
@@ -221,7 +221,7 @@ struct EightPulls {
       axis.z = n.x * m.y - n.y * m.x;
     }
   }
-  /// `slope`: by which, times d, i is pushed; `share`: the kernel that the share of the way stands before.
+  /// `slope`: by which, times d, i is pushed; `share`: the kernel that the share of the way is before.
   COURANT_INLINE void add_image(const EightEdges<Dim>& edges, const Ways<Dim>& ways, int k,
                                 const Passing& way, const Difference<Dim>& d, const Pack& slope,
                                 const Pack& share) {

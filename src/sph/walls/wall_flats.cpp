@@ -30,8 +30,8 @@ void WallImages::find_flat(const Particles& p, Index i) {
   flats_[static_cast<std::size_t>(i)] = at_end().moving_flat_about(sheets(i), x, sight);
 }
 
-/// The plane of a flat wall, its normal towards who sees it, for places that are looked at `aside` of where
-/// they are.
+/// The plane of a flat wall, its normal towards who sees it, for positions that are looked at `aside` of
+/// where they are.
 struct WallImages::Flat {
   Vec n;
   Real offset, side;
@@ -42,7 +42,7 @@ struct WallImages::Flat {
   Real height(const Vec& x) const { return n.dot(x) - offset; }
 };
 
-/// Whether all that particle i may see stand on its side of the wall in the middle of the step.
+/// Whether all that particle i may see are on its side of the wall in the middle of the step.
 bool WallImages::has_flat_to_itself(const Particles& p, Index i) const {
   const Index f = flats_[static_cast<std::size_t>(i)];
   if (f < 0) return false;
@@ -57,7 +57,8 @@ bool WallImages::has_flat_to_itself(const Particles& p, Index i) const {
   });
 }
 
-/// As in a room at rest, with velocities less those of the body: what moves with it does not come nearer.
+/// As in a sub-domain at rest, with velocities less those of the body: what moves with it does not come
+/// nearer.
 void WallImages::add_flat_rate(Particles& p, Index i) const {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Index f = flats_[static_cast<std::size_t>(i)];
@@ -77,8 +78,8 @@ void WallImages::add_flat_rate(Particles& p, Index i) const {
   p.drhodt[i] += p.rho[i] * rate;
 }
 
-/// The wall gets of each way along its normal, where that meets it, what the particle gets: the other half by
-/// the way back.
+/// The wall gets of each path along its normal, where that meets it, what the particle gets: the other half
+/// by the path back.
 void WallImages::add_flat_forces(Particles& p, Index i, Block& block) const {
   const Index f = flats_[static_cast<std::size_t>(i)];
   const Vec x = p.x.vec(i);

@@ -19,7 +19,7 @@ struct WallFriction {
 inline constexpr Real von_karman = 0.41;
 
 /// A particle has its velocity no nearer to a wall than this share of the spacing, half of where the lowest
-/// row stands at rest: what the velocity is a mean over reaches farther, and a particle that passes an edge
+/// row is at rest: what the velocity is a mean over reaches farther, and a particle that passes an edge
 /// crosses the plane of a wall at no distance at all.
 inline constexpr Real least_distance = 0.25;
 

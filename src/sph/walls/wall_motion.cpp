@@ -48,7 +48,7 @@ void WallSurface::take_along(std::vector<Face>& faces, std::vector<WallMotion>& 
   for_each(this->faces(), [&](Index f) {
     if (faces[f].body >= 0 && faces[f].image_of < 0) take(faces[f], motions[f]);
   });
-  for (Index f = 0; f < this->faces(); ++f) {  // images stand behind what they are images of
+  for (Index f = 0; f < this->faces(); ++f) {  // images are behind what they are images of
     Face& face = faces[f];
     if (face.body < 0 || face.image_of < 0) continue;
     const Face& seen = faces[face.image_of];

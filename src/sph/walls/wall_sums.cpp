@@ -13,7 +13,7 @@ Vec normal(const WallRoom& room, int wall) {
   return Vec(room.n[wall][0], room.n[wall][1], room.n[wall][2]);
 }
 
-/// How far something is from the walls of a room, in h; nothing is behind them.
+/// How far something is from the walls of a sub-domain, in h; nothing is behind them.
 struct Depths {
   std::array<Real, 3> of{};
   int walls;
@@ -137,7 +137,7 @@ WallSupport::Sums WallSupport::sums_in_room(const Particles& p, Index i, const W
   return s;
 }
 
-/// Stress over viscosity and velocity by all walls of the room that hold water fast.
+/// Stress over viscosity and velocity by all walls of the sub-domain that hold water fast.
 Real WallSupport::hold_in_room(const Particles& p, Index i, const WallRoom& room) const {
   const Depths depths(room, p.x.vec(i), p.h[i]);
   Real out = 0;

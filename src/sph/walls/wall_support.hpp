@@ -21,7 +21,7 @@ namespace courant {
 ///   d rho_i/dt += 2 rho_i int (v_i - w).n W dS,   f_i -= 2 V_i p_i b_i, p with that of bulk viscosity.
 /// The second is what belongs to the first, so that energy is kept. Where gradients are renormalised, walls
 /// complete the moment matrix by int (x' - x_i) (x) n W dS + 1 int W dV behind the wall, and its inverse B
-/// stands before b and n as before other gradients. Friction: tau = CF rho |v - w|^2/2 along the wall, given
+/// is before b and n as before other gradients. Friction: tau = CF rho |v - w|^2/2 along the wall, given
 /// to the particles that see it, whose kernels make up half of 1 there. With LAW 1, tau = rho u*^2 by the
 /// distance and velocity of each of them (wall_law.hpp). With LAW 2, no slip, tau = mu |v - w|/y: what
 /// viscosity between pairs lacks if behind the wall v goes on linearly; with METHOD 1 images do that.
@@ -29,8 +29,8 @@ namespace courant {
 /// Walls that move get what particles lose, piece by piece, on the nodes of the segment as it interpolates.
 ///
 /// Spray, which has fewer neighbours than it takes to span the plane or space, has no sums to complete;
-/// contact alone holds it off. Else its own mirror image would hold a drop to the wall by tension, for ever,
-/// and the drop would swing against the stiff contact until it is driven through.
+/// contact alone holds it off. Else its own mirror image would hold a drop to the wall by tension, without
+/// end, and the drop would swing against the stiff contact until it is driven through.
 class WallSupport : public Rate,
                     public Refresh,
                     public EnergyTerm,
@@ -60,11 +60,11 @@ class WallSupport : public Rate,
   Real sight_until_search(const Particles& p, Index i) const {
     return sight(p, i) + 0.51 * neighbours_.skin();
   }
-  /// What particles see of walls, where it is known by places: all are held, and reach one h.
+  /// What particles see of walls, where it is known by positions: all are held, and reach one h.
   const WallOutlooks* outlooks() const { return outlooks_ ? &*outlooks_ : nullptr; }
-  /// The room of a particle that sees any wall; null: none.
+  /// The sub-domain of a particle that sees any wall; null: none.
   const WallRoom* room(Index i) const { return outlooks_ ? rooms_[static_cast<std::size_t>(i)] : nullptr; }
-  /// By which belts go in this step. [-]
+  /// By which moving surfaces go in this step. [-]
   const std::vector<Real>& belt_factors() const { return belt_factors_; }
 
   /// What a particle does to a segment that moves.
@@ -120,7 +120,7 @@ class WallSupport : public Rate,
   Vec friction_on(const Particles& p, Index i, const Vec& v) const;
   const WallFriction& friction_of(Index face) const { return walls_.friction[surface_->segment_of(face)]; }
   Vec belt_velocity(const WallPoint& q) const;
-  /// What walls without slip do, and what they turn into heat and get by belts.
+  /// What walls without slip do, and what they turn into heat and get by moving surfaces.
   struct Hold {
     Vec force = Vec::Zero();
     Real heat = 0, belt_power = 0;  ///< [ML2/T3]
@@ -159,7 +159,8 @@ class WallSupport : public Rate,
   Field<Real>&slope_, &fill_;
   Field<Real>& pressure_;  ///< with that of bulk viscosity, as pair forces take it
   Field<Real>& rubbing_;
-  Field<Real>*velocity_ = nullptr, *slide_ = nullptr;     ///< where walls move or belts; where belts do
+  Field<Real>*velocity_ = nullptr,
+  *slide_ = nullptr;  ///< where walls move or moving surfaces; where moving surfaces do
   Field<Real>*viscosity_ = nullptr, *viscous_ = nullptr;  ///< where walls hold water fast, METHOD 0
   Field<Real>* image_force_ = nullptr;                    ///< METHOD 1
   Field<Real>*moment_ = nullptr, *gradient_ = nullptr, *excess_ = nullptr;  ///< where forms are renormalised

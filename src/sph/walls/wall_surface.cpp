@@ -281,7 +281,7 @@ void WallSurface::add_images(int k) {
   }
 }
 
-/// What stands on a plane is on both of its sides.
+/// What is on a plane is on both of its sides.
 bool WallSurface::is_at(Side side, const Vec& x) const {
   for (const GhostPlane& plane : mirrors_and_periods_) {
     const Real d = depth(plane, x), tolerance = small * reach_;
@@ -412,7 +412,7 @@ std::vector<Index> WallSurface::points_around(const Vec& x, Real within) const {
   return found;
 }
 
-/// What stands between is nearer, and some point of it not much farther than the piece it is on is large.
+/// What is between is nearer, and some point of it not much farther than the piece it is on is large.
 WallSurface::SightSearch::SightSearch(const WallSurface& surface, const Vec& from, Real within)
     : surface_(surface),
       from_(from),

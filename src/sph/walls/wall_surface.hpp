@@ -1,5 +1,5 @@
 #pragma once
-// The surface of shells at one moment, as points that each stand for a piece of it.
+// The surface of shells at one moment, as points that each represent a piece of it.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,11 +25,11 @@ struct WallPoint {
 /// Whether any of its nodes can.
 bool segment_moves(const World& world, Index segment);
 
-/// Where somebody may look from: cells about `reach` wide, and which of them particles stand in.
+/// Where somebody may look from: cells about `reach` wide, and which of them particles are in.
 class Lookouts {
  public:
   Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes);
-  /// Whether anything within the reach of this box, or of its image across a period, stands there; true where
+  /// Whether anything within the reach of this box, or of its image across a period, is there; true where
   /// that is not known.
   bool any_near(const Vec& low, const Vec& high) const;
 
@@ -88,8 +88,9 @@ class WallSurface {
     int behind = 0;
     Side way = 0;
     int belt = -1;     ///< which it belongs to; -1: none
-    WallMotion slide;  ///< of the belt, at factor 1
-    /// Velocity of the belt along the face at x [L/T]; 0 without one. `factors`: by which belts go now.
+    WallMotion slide;  ///< of the moving surface, at factor 1
+    /// Velocity of the moving surface along the face at x [L/T]; 0 without one. `factors`: by which moving
+    /// surfaces go now.
     Vec slide_at(const std::vector<Real>& factors, const Vec& x) const {
       if (belt < 0) return Vec::Zero();
       const Vec u = slide.at(x);
@@ -104,7 +105,7 @@ class WallSurface {
   /// when the surface was made. [T]
   void take_along(std::vector<Face>& faces, std::vector<WallMotion>& motions, const World& world,
                   Real back) const;
-  /// By which forces at x, in the plane of a face, stand on the nodes of its segment: their sum and their
+  /// By which forces at x, in the plane of a face, are on the nodes of its segment: their sum and their
   /// moment are those at x, also past the edges.
   std::array<Real, 4> weights_of_nodes(const Face& face, const Vec& x) const;
   /// Faces that have points within the reach of x, ascending.
@@ -170,14 +171,14 @@ class WallSurface {
   void sort_into_cells();
   bool near(Index point, const Vec& x) const { return (at_[point] - x).squaredNorm() < reach_ * reach_; }
   int cells_around(const Vec& x, std::array<Index, 27>& cells) const;
-  /// Faces of one plane that may stand between somebody and what is on its other side.
+  /// Faces of one plane that may be between somebody and what is on its other side.
   struct Screen {
     Index plane = 0;
     Vec n = Vec::Zero();
     Real offset = 0, height = 0;  ///< of who looks over it [L]
     std::vector<Index> faces;
   };
-  /// What may be seen from a place.
+  /// What may be seen from a position.
   struct Sight {
     std::vector<Index> points;
     std::vector<Screen> screens;  ///< none where all is in one plane
@@ -196,7 +197,7 @@ class WallSurface {
     void take(Index point, Real r2);
     const WallSurface& surface_;
     Vec from_;
-    Real within2_, around2_;  ///< of points, and of what may stand before them [L2]
+    Real within2_, around2_;  ///< of points, and of what may be before them [L2]
     std::vector<Index> faces_;
     Index plane_ = -1;
     bool corner_ = false;
@@ -218,7 +219,7 @@ class WallSurface {
   Vec low_ = Vec::Zero();
   Real cell_ = 1;
   std::array<Index, 3> cells_{1, 1, 1};
-  std::vector<Index> first_;  ///< points [first_[c], first_[c+1]) stand in cell c
+  std::vector<Index> first_;  ///< points [first_[c], first_[c+1]) are in cell c
 };
 
 }  // namespace courant

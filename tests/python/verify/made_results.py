@@ -23,7 +23,7 @@ def write_history(file: Path, datasets: Mapping[str, np.ndarray]) -> None:
 
 
 def write_particles(file: Path, arrays: Mapping[str, np.ndarray]) -> None:
-    """A .vtp of arrays by name, packed by zlib; "Points" are the places."""
+    """A .vtp of arrays by name, packed by zlib; "Points" are the locations."""
     blocks, heads, offset = [], {}, 0
     for name, values in arrays.items():
         data = np.ascontiguousarray(values)

@@ -98,7 +98,7 @@ def wave() -> CaseResult:
 
 
 def strange() -> CaseResult:
-    """Errors that have no place on a logarithmic axis, a run that stopped, and more settings than colours."""
+    """Errors that have no location on a logarithmic axis, a run that stopped, and more settings than colours."""
     c = CaseResult(Case("strange", "Strange errors", resolution="n", observations=[observation("mass", "formula")]))
     c.definition.observations[0].bound = 0.1
     for i, e in enumerate((0.0, math.nan, math.inf, 0.02, 0.05, 0.004, 0.3, 0.15, 0.06, 0.011)):

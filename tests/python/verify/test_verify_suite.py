@@ -1,4 +1,4 @@
-"""Suites are read whole, and every fault is told at its place before anything is run."""
+"""Suites are read whole, and every fault is reported at its location before anything is run."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ TEST(CheckAdvice, SpacingAndSmoothingLength) {
   EXPECT_TRUE(holds(advice_of(scene), "details are smoothed away; type CSLH = 1.2"));
 }
 
-// Wider kernels of smaller support and the other way round: what counts is their width.
+// Wider kernels of smaller support and reversed: what counts is their width.
 TEST(CheckAdvice, SmoothingLengthOfOtherKernels) {
   SmallScene scene = fine_scene();
   for (const char* quintic : {"1,1.,1.,1.,0.,1e20,0.,1", "1,1.4,1.,1.,0.,1e20,0.,1"}) {

@@ -57,7 +57,7 @@ TEST(Units, GravityThatIsNotTheEarthsIsTold) {
 
 TEST(Units, StrangeNumbersAreToldAsSuch) {
   EXPECT_EQ(verdict(facts({12345678}, 3, 1, 1)), "Units: no common system fits; are they consistent?");
-  EXPECT_EQ(verdict(DeckFacts{}), "Units: the deck has neither densities nor gravity to tell them from");
+  EXPECT_EQ(verdict(DeckFacts{}), "Units: the deck has neither densities nor gravity to derive them from");
 }
 
 TEST(Units, NoLineIsWiderThanThePage) {

@@ -15,7 +15,7 @@ namespace {
 using test::run;
 using test::steps;
 
-constexpr Real dx = 0.125;  // exact, as all places below: so results can be compared bit by bit
+constexpr Real dx = 0.125;  // exact, as all locations below: so results can be compared bit by bit
 constexpr Real v = 2;
 
 /// Water at rest in 0 < x < 1, and an inlet of four nodes at x = 0 below its surface.
@@ -139,7 +139,7 @@ std::unique_ptr<Simulation> jump(const std::string& scene) {
   return s;
 }
 
-/// Particles of the block and of the inlet stand in another order: sums differ in their last bits.
+/// Particles of the block and of the inlet are in another order: sums differ in their last bits.
 TEST(Injection, SceneOfTheJumpFlowsAsThatWithTheBlock) {
   const auto block = jump("scene"), inlet = jump("injection");
   ASSERT_TRUE(block && inlet);

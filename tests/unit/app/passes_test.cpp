@@ -292,7 +292,7 @@ TEST(Passes, RiemannFlux) {
       scene, {"Riemann flux", "bulk viscosity"},
       {"rates Riemann flux (momentum)", "rates Riemann flux (density)", "forces Riemann flux (mass)",
        "time limit Riemann flux (mass)", "preparation potential of body loads"},
-      {"bulk viscosity *COURANT_RIEMANN takes the place of viscosity"});
+      {"bulk viscosity *COURANT_RIEMANN replaces viscosity"});
 }
 
 TEST(Passes, Drifts) {

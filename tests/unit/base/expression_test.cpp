@@ -31,7 +31,7 @@ ExpressionResult result_of(const std::string& text) {
   return evaluate_expression(text, names());
 }
 
-/// "I 2" or "R 2.5", or the error with its place and hint.
+/// "I 2" or "R 2.5", or the error with its position and hint.
 std::string typed(const std::string& text) {
   const ExpressionResult out = result_of(text);
   if (!out.ok()) return std::to_string(out.at) + ": " + out.error + (out.hint.empty() ? "" : "; " + out.hint);

@@ -1,5 +1,5 @@
-// Water that hits a mirror stands off it: no row of particles stays on the mirror, each in one place with its
-// image.
+// Water that hits a mirror stands off it: no row of particles stays on the mirror, each in one position with
+// its image.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>

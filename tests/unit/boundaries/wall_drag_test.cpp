@@ -14,7 +14,7 @@ namespace {
 
 constexpr Real mu = 50, shear = 3, spacing = 0.1;
 
-/// Water over a floor half a spacing below its lowest row; `wall`: what stands on *COURANT_WALL_SUPPORT.
+/// Water over a floor half a spacing below its lowest row; `wall`: what is on *COURANT_WALL_SUPPORT.
 std::string held_water(int method, const std::string& wall, const std::string& more = "", int n = 12) {
   test::SmallScene scene;
   scene.n = n;
@@ -72,7 +72,7 @@ TEST(WallDrag, LeavesLinearFlowAlone) {
     }
 }
 
-// The same in three dimensions, the belt along both directions of its plane.
+// The same in three dimensions, the moving surface along both directions of its plane.
 TEST(WallDrag, LeavesLinearFlowInSpaceAlone) {
   for (const int method : {0, 1}) {
     test::SmallScene scene;
@@ -113,7 +113,7 @@ TEST(WallDrag, IsTheViscousStress) {
   }
 }
 
-// Of the work of a belt nothing is lost: water gets it or turns it into heat.
+// Of the work of a moving surface nothing is lost: water gets it or turns it into heat.
 TEST(WallDrag, BooksTheWorkOfABelt) {
   for (const int method : {0, 1})
     for (const std::string& wall : {held, std::string("0.05,{}"), std::string("0.,{},1,0.01")}) {
@@ -171,7 +171,7 @@ TEST(WallDrag, GivesAFreeWallWhatWaterLoses) {
   }
 }
 
-// Two walls that meet: no slip on both, the way back over both of them.
+// Two walls that meet: no slip on both, the path back over both of them.
 TEST(WallDrag, HoldsWaterInACornerAsTheFlowThatIsOddInBothDirections) {
   const std::string side =
       "*NODE\n9101,0.,-1.,-2.\n9102,0.,3.,-2.\n9103,0.,3.,3.\n9104,0.,-1.,3.\n*ELEMENT_SHELL\n2,3,9101,9102,"

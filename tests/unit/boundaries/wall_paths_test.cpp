@@ -42,7 +42,7 @@ struct Sums {
   int paths = 0;
 };
 
-/// What x sees of a liquid all over the places that `wet` tells, in small pieces.
+/// What x sees of a liquid all over the positions that `wet` tells, in small pieces.
 template <class Wet>
 Sums look(const World& world, const Vec& x, int dim, Real piece, const Wet& wet) {
   std::vector<Index> all(static_cast<std::size_t>(world.segments.size()));
@@ -191,7 +191,7 @@ TEST(WallPaths, AreTheSameBothWays) {
   EXPECT_GT(ways, 200);
 }
 
-/// Lines of wall, and whether a place is in the water.
+/// Lines of wall, and whether a position is in the water.
 struct Place {
   std::string name;
   std::vector<std::pair<Vec, Vec>> lines;
@@ -221,7 +221,7 @@ std::vector<Place> places() {
   };
 }
 
-/// Sum of shares times the kernel, and how it changes with the places of both ends.
+/// Sum of shares times the kernel, and how it changes with the positions of both ends.
 struct Seen {
   Real sum = 0;
   Vec by_x = Vec::Zero(), by_y = Vec::Zero();
@@ -242,7 +242,7 @@ Seen see(const WallPaths& paths, const Vec& x, const Vec& y) {
   return out;
 }
 
-/// The walls of a place, held; their segments.
+/// The walls of a position, held; their segments.
 std::vector<Index> add_lines(World& world, const Place& place) {
   std::vector<Index> all;
   std::vector<std::array<Vec, 4>> plates;
@@ -254,8 +254,8 @@ std::vector<Index> add_lines(World& world, const Place& place) {
   return all;
 }
 
-// Density then depends on places alone, not on the way there: what a pair gains on any way is the difference
-// of what it has at its ends.
+// Density then depends on positions alone, not on the way there: what a pair gains on any way is the
+// difference of what it has at its ends.
 TEST(WallPaths, GiveAndTakeShareWithoutJumps) {
   for (const Place& place : places()) {
     World world;
@@ -365,7 +365,7 @@ TEST(WallPaths, GoAlongWithWallsThatMoveAndPullThem) {
     }
 }
 
-// In a corner the way to oneself and back goes through the edge, for some walls always.
+// In a corner the path to oneself and back goes through the edge, for some walls always.
 TEST(WallPaths, ShowAParticleToItselfInCorners) {
   for (const auto& [angle, images] : {std::pair{90, 3}, std::pair{60, 5}, std::pair{45, 7}}) {
     World world;
@@ -514,7 +514,7 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
       Vec force = Vec::Zero();
       const auto sheets = paths.sheets_around(crowd.at(i), 2.2 * h + dx);
       for (std::size_t j = 0; j < crowd.V.size(); ++j) {
-        if (j == i || crowd.is_doubtful(i, j)) continue;  // oneself is seen from other places aside
+        if (j == i || crowd.is_doubtful(i, j)) continue;  // oneself is seen from other positions aside
         const auto slope = [&](const Vec& d) {
           return table.slope(d.norm() / h) / (d.norm() * h * (place.dim == 2 ? h * h : h * h * h));
         };
@@ -532,7 +532,7 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
         ways += static_cast<int>(now.size());
       }
       const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));
-      // what oneself adds, from one place aside
+      // what oneself adds, from one position aside
       WallRoom room = *crowd.room[i];
       const Vec x = crowd.at(i) + paths.shift(), earlier = x - 1e-3 * crowd.velocity(i),
                 u = crowd.velocity(i);
@@ -660,7 +660,7 @@ struct Exchange {
   }
 };
 
-/// As WallImages follows the ways of particle i one by one where walls move.
+/// As WallImages follows the paths of particle i one by one where walls move.
 Exchange by_moving_ways(const WallPaths& middle, const WallPaths& end, const WallPaths::Sheets& around,
                         const Crowd& crowd, std::size_t i, int dim) {
   const AnyKernel& kernel = any_kernel(KernelChoice::cubic_spline);
@@ -785,7 +785,8 @@ TEST(WallPaths, AreThoseOfEdgesThatMoveInTheirLoops) {
       ++looked;
       const Exchange exact = by_moving_ways(middle, end, sheets[i], crowd, i, place.dim),
                      edge = of_edge(crowd.edges[i], pulls[i], crowd.at(i));
-      const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));  // oneself is seen from places aside
+      const Real scale =
+          1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));  // oneself is seen from positions aside
       EXPECT_NEAR(crowd.drhodt[i], exact.rate, 4 * scale) << place.name << ": " << crowd.at(i).transpose();
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(crowd.f[c][i], exact.force[c], 8 * scale) << place.name;

@@ -18,7 +18,7 @@ Real W(Real r) {
   return CubicSpline::C(2) * CubicSpline::shape(r / h) / (h * h);
 }
 
-/// Integral of W over the places that `inside` tells, by a fine grid around x.
+/// Integral of W over the positions that `inside` tells, by a fine grid around x.
 template <class Inside>
 Real volume(const Vec& x, const Inside& inside) {
   constexpr int n = 600;

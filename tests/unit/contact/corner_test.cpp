@@ -68,7 +68,8 @@ TEST(Corner, PerpendicularWallsActFully) {
 }
 
 // Two walls that meet along the y axis: the force is minus the gradient of the stored energy everywhere,
-// never larger than needed to reach the nearest place at distance r, and changes by at most k times the way.
+// never larger than needed to reach the nearest position at distance r, and changes by at most k times the
+// path.
 TEST(Corner, ForceIsContinuousAndConservativeAtAllAngles) {
   for (int degrees = 15; degrees <= 345; degrees += 15) {
     const Real angle = degrees * pi / 180;

@@ -48,7 +48,7 @@ Real stable_step(Real wall, Real vdc) {
   return s.contact->limit(s.world, s.clock).dt;
 }
 
-/// A spring between two masses swings by their reduced one: quicker at a wall that gives way.
+/// A spring between two masses swings by their reduced one: quicker at a wall that yields.
 TEST(ContactDynamics, TheStepIsThatOfTheReducedMassOfParticleAndWall) {
   EXPECT_NEAR(stable_step(0, 0), std::sqrt(2 / 1000.), 1e-12);
   EXPECT_NEAR(stable_step(1, 0), std::sqrt(1 / 1000.), 1e-12);

@@ -36,8 +36,8 @@ struct RandomFace {
 
 }  // namespace
 
-// The place is the one that it was made from, forces keep their sum and moment, and their power in any motion
-// is that of the force at the point.
+// The position is the one that it was made from, forces keep their sum and moment, and their power in any
+// motion is that of the force at the point.
 TEST(FacePoint, ForcesOnCornersDoTheSameAsTheForceAtThePoint) {
   for (const int corners : {3, 4})
     for (int seed = 0; seed < 20; ++seed) {
@@ -104,7 +104,7 @@ TEST(Ties, TakeTheNearestFaceWithinTheTolerance) {
   EXPECT_NEAR(ties[0].at.gap, -0.02, 1e-15);
   EXPECT_NEAR(ties[0].at.N[3], 0.75 * 0.75, 1e-12);
   EXPECT_EQ(ties[0].k, 5.0 / 4);  // a quarter of the face
-  // corners of a face are tied to no other one, and are told
+  // corners of a face are tied to no other one, and are reported
   TieFace other;
   other.node = {5, 6, 7, 8}, other.corners = 4, other.area = 1;
   std::vector<Index> near;

@@ -66,8 +66,8 @@ TEST(Facet, ShapeFunctionsReproducePositions) {
   }
 }
 
-// The way in which its nodes share a force is that in which they move the place of it; else a wall that warps
-// does another work than it takes.
+// The way in which its nodes share a force is that in which they move the position of it; else a wall that
+// warps does another work than it takes.
 TEST(Facet, NodesOfAQuadThatDeformsShareForcesAsTheyMoveIt) {
   World w = world_of({{Vec(0, 0, 0), Vec(2, 0, 0.1), Vec(2.5, 1, 0), Vec(0, 1.2, 0.2)}});
   const std::vector<Facet> facets = make_facets(w, {0}, [](Index) { return true; });
@@ -87,7 +87,7 @@ TEST(Facet, NodesOfAQuadThatDeformsShareForcesAsTheyMoveIt) {
         other.nodes.x.set(n, Vec(w.nodes.x.vec(n) + (way == 0 ? -step : step) * v[n]));
       update_facet(moved[way], other.nodes);
     }
-    // the place itself goes with the facet, turning about q
+    // the position itself goes with the facet, turning about q
     Real at[2];
     for (int way = 0; way < 2; ++way) at[way] = plane_distance(moved[way], y);
     Vec turned = Vec::Zero();
@@ -111,7 +111,7 @@ TEST(Facet, PathThroughAMovingFacetIsSeen) {
   EXPECT_TRUE(passes_through(f, f.x, 1, Vec(0.5, 0.5, -1e-18), Vec(0.5, 0.5, -0.1), t));
 }
 
-// Of two squares of a plane the later one gives way along the edge that they share, and there only.
+// Of two squares of a plane the later one yields along the edge that they share, and there only.
 TEST(Wall, IsSurelyOverUpToItsOtherEdges) {
   World w = world_of({{Vec(0, 0, 0), Vec(1, 0, 0), Vec(1, 1, 0), Vec(0, 1, 0)},
                       {Vec(1, 1, 0), Vec(1, 0, 0), Vec(2, 0, 0), Vec(2, 1, 0)}});

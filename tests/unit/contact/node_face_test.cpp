@@ -56,8 +56,8 @@ TEST(NodeFace, TrianglesHaveLinearShapes) {
   EXPECT_NEAR((project(x, 3, Vec(2, 1, 0)).q - Vec(1.6, 0.2, 0)).norm(), 0, 1e-14);
 }
 
-// Beyond an edge a face goes on as its mean plane: what sums up to the place does so there, too, and a motion
-// of the corners turns the plane as it turns the diagonals.
+// Beyond an edge a face goes on as its mean plane: what sums up to the position does so there, too, and a
+// motion of the corners turns the plane as it turns the diagonals.
 TEST(NodeFace, GoesOnBeyondItsEdgesAsAPlane) {
   std::mt19937 random(5);
   std::uniform_real_distribution<Real> some(-2.5, 2.5);
@@ -141,7 +141,7 @@ TEST(NodeContactTouch, PushesLessInTheLastStep) {
   EXPECT_NEAR(change_of_sums(force, depth, -1, 0.0006, 2.5), 0, 1e-15);
 }
 
-// Before anything touches, the step may lead to nine tenths of the way to the surface less one as short as
+// Before anything touches, the step may lead to nine tenths of the path to the surface less one as short as
 // springs there ask for, or be that short.
 TEST(NodeContactTouch, AllowsAStepUpToTheSurface) {
   TouchScene scene;

@@ -10,7 +10,7 @@ using namespace courant;
 
 namespace {
 
-/// Masses of the node and, along the normal, of the free face at its place: 1/sum N^2/m.
+/// Masses of the node and, along the normal, of the free face at its position: 1/sum N^2/m.
 Real mass_of_face(const TouchScene& scene) {
   const Real N[4] = {0.25 * 0.5 * 0.8, 0.25 * 1.5 * 0.8, 0.25 * 1.5 * 1.2, 0.25 * 0.5 * 1.2};
   Real mobility = 0;

@@ -228,7 +228,7 @@ TEST(Shortcuts, MovingWalls) {
   expect_same_bits(c);
 }
 
-// Shells of one plane whose normals point either way, as meshes from several sources have them.
+// Shells of one plane whose normals point in either case, as meshes from several sources have them.
 TEST(Shortcuts, NeighboursThatFaceEitherWay) {
   WallCase c;
   c.make = [](Scene& s) {

@@ -52,7 +52,7 @@ Real pinched_hemisphere(int n, Real drilling) {
 
 }  // namespace
 
-// Patch test, rates: every place in the plane sees the same constant rates, and no drilling.
+// Patch test, rates: every position in the plane sees the same constant rates, and no drilling.
 TEST(FullShell, AffineMotionsGiveOneRateEverywhere) {
   Matrix L = Matrix::Zero(), k = Matrix::Zero();
   L.topLeftCorner<2, 2>() << 0.3, -0.2, 0.5, -0.4;
@@ -177,7 +177,7 @@ TEST(FullShell, ForcesArePowersSlopesAndBalance) {
   }
 }
 
-// N = t C D, M = t^3/12 C K, Q = shear factor G t gamma at each place.
+// N = t C D, M = t^3/12 C K, Q = shear factor G t gamma at each position.
 TEST(FullShell, ResultantsOfAnElasticPlate) {
   ShellPatch g = full_plate(1, 1, 0, 0.2);
   const Real c = g.E / (1 - g.nu * g.nu), G = g.E / (2 * (1 + g.nu)), t = 0.2, dt = 1e-6;

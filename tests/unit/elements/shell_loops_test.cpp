@@ -224,7 +224,7 @@ TEST(Shell, ResultantsOfAnElasticPlate) {
 }
 
 TEST(Shell, ATurningPlateKeepsItsStress) {
-  // 25 turns of 40 steps each, 9 degrees a step; the corners turn with the chord as their places do
+  // 25 turns of 40 steps each, 9 degrees a step; the corners turn with the chord as their positions do
   for (const int corners : {3, 4})
     for (const bool invariant : {false, true}) {
       ShellPatch g = ShellPatch::plate(2, 2, corners, 0.2, 0.1);

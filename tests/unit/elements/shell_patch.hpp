@@ -84,7 +84,7 @@ struct ShellPatch {
       state.zeta[p] = state.zeta[p % layers], state.share[p] = state.share[p % layers];
     for (int p = 0; p < state.points; ++p) state.share[p] /= 4;
   }
-  /// One point that heeds the warp of the element.
+  /// One point that respects the warp of the element.
   void make_warped(Real drilling = 0) {
     loops = warped_quadrilateral_loops(), control.drilling = drilling, control.warps = true;
   }

@@ -15,7 +15,7 @@ namespace courant::test {
 using Dense = Eigen::MatrixXd;
 using Column = Eigen::VectorXd;
 
-/// Forces on nodes for unit motions: six numbers a node. Linear about the places of `g`.
+/// Forces on nodes for unit motions: six numbers a node. Linear about the positions of `g`.
 inline Dense stiffness(ShellPatch g) {
   const auto n = static_cast<Eigen::Index>(6 * g.x.size());
   constexpr Real small = 1e-7;

@@ -60,7 +60,7 @@ TEST(SolidViscosity, TakesWhatHoldsForAllParts) {
   const auto v = viscosity(cards + "*CONTROL_HOURGLASS\n3,0.02\n*CONTROL_BULK_VISCOSITY\n1.,0.5\n", messages);
   EXPECT_EQ(messages, "");
   expect_values(v[0], 3, 0.02, 1, 0.5);
-  expect_values(v[1], 3, 0.02, 1.5, 0.06);  // its Q1 and Q2 stand in *HOURGLASS
+  expect_values(v[1], 3, 0.02, 1.5, 0.06);  // its Q1 and Q2 are in *HOURGLASS
   expect_values(v[2], 2, 0.05, 2, 0.1);
   expect_values(v[3], 3, 0.03, 1e-20, 0.06);
 }

@@ -1,4 +1,4 @@
-// The loops of shells with one point in their plane that heed their warp (BWC 1).
+// The loops of shells with one point in their plane with warp (BWC 1).
 #include <gtest/gtest.h>
 
 #include <random>
@@ -35,7 +35,7 @@ void move_at_random(ShellPatch& g) {
 
 }  // namespace
 
-// Flat ones differ from those that do not heed warp by drilling alone.
+// Flat ones differ from those that do not respect warp by drilling alone.
 TEST(WarpedShell, FlatOnesAreAsTheOthers) {
   for (const bool stiff : {false, true}) {
     ShellPatch a = ShellPatch::plate(9, 8, 4, 0.3, 0.1), b = warped_plate(9, 8, 0.3, 0.1, 0, 0);
@@ -133,7 +133,7 @@ TEST(WarpedShell, OnlyRigidMotionsAreFree) {
   }
 }
 
-// MacNeal & Harder 1985, as of ELFORM 16; those that do not heed warp are several times too soft.
+// MacNeal & Harder 1985, as of ELFORM 16; those that do not respect warp are several times too soft.
 TEST(WarpedShell, TwistedBeam) {
   const auto shell = [](bool warps) {
     return [warps](ShellPatch& g) {

@@ -26,7 +26,7 @@ struct Outcome {
   std::string errors;
 };
 
-/// `first` with one text in place of another.
+/// `first` with one text instead of another.
 Outcome changed(const std::string& from, const std::string& to) {
   std::string text = first;
   const auto at = text.find(from);

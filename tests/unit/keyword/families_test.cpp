@@ -65,7 +65,7 @@ TEST(Families, LawsAreNamedByNumberAndByName) {
   EXPECT_EQ(lacking("EOS_JWLB"), "this equation of state (EOS_014)");
   EXPECT_EQ(lacking("EOS_011"), "this equation of state (EOS_TENSOR_PORE_COLLAPSE)");
   EXPECT_EQ(hint("EOS_011"), "supported: *EOS_LINEAR_POLYNOMIAL, *EOS_MURNAGHAN");
-  EXPECT_EQ(lacking("MAT_999"), "this material");  // no number is a slip of the pen for another
+  EXPECT_EQ(lacking("MAT_999"), "this material");  // no number is a typing error for another
   EXPECT_EQ(hint("MAT_999"), "supported: *MAT_NULL, *MAT_RIGID");
 }
 

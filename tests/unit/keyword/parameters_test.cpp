@@ -1,4 +1,4 @@
-// Parameters of a deck: what they are worth where, and what `courant check` can tell of them.
+// Parameters of a deck: what they are worth where, and what `courant check` can report them.
 #include "keyword/read/parameters.hpp"
 
 #include <gtest/gtest.h>

@@ -92,7 +92,7 @@ TEST_F(SourceFile, IsRefusedIfItMayNeverEnd) {
 
 TEST_F(SourceFile, OfManyGigabytesThatIsNoTextIsKnownByItsBeginning) {
   std::ofstream(path_) << "*KEYWORD\n";
-  std::filesystem::resize_file(path_, std::uintmax_t(1) << 40);  // a hole: takes no room
+  std::filesystem::resize_file(path_, std::uintmax_t(1) << 40);  // a hole: takes no space
   EXPECT_NE(said_of(path_).find(":2:1: error: the file holds"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// The quick way through tables must say and store what the careful one does.
+// The fast path through tables must say and store what the careful one does.
 #include "keyword/read/table_lines.hpp"
 
 #include <gtest/gtest.h>
@@ -147,8 +147,7 @@ TEST(PlainNumber, LeavesOthersAlone) {
 TEST(NumberHint, NamesWhatMayBeWrong) {
   EXPECT_EQ(number_hint("*NODE"), "a keyword begins in column 1");
   EXPECT_EQ(number_hint("1.0 $ x"), "a comment is a line of its own, with $ in column 1");
-  EXPECT_EQ(number_hint("1 0.0"),
-            "a number must not contain blanks; does it stand within the columns of its field?");
+  EXPECT_EQ(number_hint("1 0.0"), "a number must not contain blanks; is it within the columns of its field?");
   EXPECT_EQ(number_hint("1.0d-999"), "numbers other than 0 range from 1e-307 to 1e308");
   EXPECT_EQ(number_hint("1e999"), "numbers other than 0 range from 1e-307 to 1e308");
   EXPECT_EQ(number_hint("\xA0"

@@ -82,7 +82,7 @@ bool depends_on_row(const KeywordSpec& spec, const FieldSpec& field) {
          (ends("_GENERATE_INCREMENT") && field.name == "INCR");  // the last one numbers nothing
 }
 
-/// Curves whose dimensions nobody needs to know: their fields are refused or without effect. Others stand in
+/// Curves whose dimensions nobody needs to know: their fields are refused or without effect. Others are in
 /// curve_units.cpp.
 bool has_effect(const FieldSpec& field) {
   return field.rules.honour == Honour::yes;
@@ -118,7 +118,7 @@ void for_each_field(
       for (std::size_t f = 0; f < spec->cards[c].fields.size(); ++f) visit(*spec, c, f);
 }
 
-/// The places of fields for which a table tells what their ids number, of a blank entry.
+/// The locations of fields for which a table states what their ids number, of a blank entry.
 std::set<std::pair<std::size_t, std::size_t>> told(const KeywordSpec& spec) {
   Deck deck;
   const auto sink = spec.sink(deck);

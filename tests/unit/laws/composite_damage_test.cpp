@@ -179,7 +179,7 @@ TEST(CompositeDamage, WhatIsLeftOfTheStrength) {
   EXPECT_NEAR(b.stress[1], 0.2 * YT, 1e-12);
 }
 
-// Loading, unloading and turning round never give back more than went in.
+// Loading, unloading and turning round never return more than went in.
 TEST(CompositeDamage, NoPathGivesEnergyAway) {
   OnePoint p(ply("0.0,50.0,1.0,0.0,2.0,1.0", "54.0,1.0", "", 0.02));
   Real work = 0, least = 0;

@@ -59,7 +59,7 @@ TEST(GeometricWall, ASphereStopsWhatMeetsItAndNothingElse) {
   WallScene s(4);
   s.w.nodes.x.set(0, {-1.5, 0, 0}), s.w.nodes.v.set(0, {3, 0, 0});
   s.w.nodes.x.set(1, {-1.5, 1.001, 0}), s.w.nodes.v.set(1, {3, 0, 0});
-  const Vec up = Vec(-0.6, 0.8, 0);  // it comes to this place of the sphere, obliquely
+  const Vec up = Vec(-0.6, 0.8, 0);  // it comes to this position of the sphere, obliquely
   s.w.nodes.x.set(2, up - 0.3 * Vec(1, 0, 0.5)), s.w.nodes.v.set(2, {1, 0, 0.5});
   s.w.particles.x.set(0, {0, 0, 1.1}), s.w.particles.v.set(0, {0, 0, -2});
   s.walls(ball + "0.0\n1.0\n");
@@ -157,7 +157,7 @@ TEST(GeometricWall, AMovingPlateTakesWithItWhatItMeets) {
   }
 }
 
-// A belt: the plate moves along itself; mu g accelerates what lies on it until it goes along.
+// A moving surface: the plate moves along itself; mu g accelerates what lies on it until it goes along.
 TEST(GeometricWall, FrictionOfAMovingPlateDragsAlong) {
   WallScene s;
   s.place({0.5, 0, 0.5}, {0, 0, 0});
@@ -169,7 +169,7 @@ TEST(GeometricWall, FrictionOfAMovingPlateDragsAlong) {
   EXPECT_NEAR(s.w.nodes.v.vec(0)[0], 0.25 * 8 * 0.3, 0.02);
   while (s.cloud.clock.t < 0.7) s.steps(1);
   EXPECT_NEAR((s.w.nodes.v.vec(0) - Vec(1, 0, 0)).norm(), 0, 1e-12);
-  // two masses of 2: each takes m V^2 from the belt, and half of it is lost to sliding
+  // two masses of 2: each takes m V^2 from the moving surface, and half of it is lost to sliding
   EXPECT_NEAR(s.w.energy.external_work, 2 * 2 * 1, 0.01);
   EXPECT_NEAR(s.w.energy.dissipated, 2 * 1, 0.01);
 }

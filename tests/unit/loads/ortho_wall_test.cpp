@@ -55,7 +55,7 @@ TEST(OrthoWall, BlocksSlideAlongBentPaths) {
     const Real way = slide.x.norm(), across = std::abs(slide.x[2] / slide.x[0] - 0.2 / 3);
     EXPECT_GT(across, 0.03);  // five times what it may err: the path is bent
     for (const Points& p : s.sets()) EXPECT_LT((p.x->vec(0) - slide.x).norm(), 0.006 * way) << decays;
-    s.steps(1);  // the ledger stands at the start of the step
+    s.steps(1);  // the ledger is at the start of the step
     EXPECT_NEAR((s.kinetic + s.w.energy.dissipated) / 18.08, 1, 0.02)
         << decays;  // two masses of 2, v^2 = 9.04
     EXPECT_NEAR(s.wall().normal, 4 * g, 1e-9);

@@ -66,7 +66,7 @@ TEST(RigidWall, HoldsAndBrakesOnAnIncline) {
       EXPECT_NEAR(p.x->vec(0)[0], 0.5 * a * t * t, 1e-9) << mu;
       EXPECT_NEAR(p.x->vec(0)[1], 0, 1e-14) << mu;
     }
-    s.steps(1);  // the ledger stands at the start of the step
+    s.steps(1);  // the ledger is at the start of the step
     EXPECT_NEAR(s.kinetic + s.w.energy.potential + s.w.energy.dissipated - s.w.energy.external_work, 0, 0.1)
         << mu;
     EXPECT_NEAR(s.wall().normal, 4 * g * std::cos(angle), 1e-9);
@@ -217,7 +217,7 @@ TEST(RigidWall, HoldsTheNodesThatItsCardNames) {
 }
 
 TEST(RigidWall, SeveralHoldACornerOfAnyAngle) {
-  for (const Real degrees : {30.0, 90.0, 150.0}) {  // of the room between two walls, below y = 0
+  for (const Real degrees : {30.0, 90.0, 150.0}) {  // of the sub-domain between two walls, below y = 0
     WallScene s;
     s.place({0, 0.01, 0}, {0, 0, 0});
     const Real a = 0.5 * degrees * pi / 180;

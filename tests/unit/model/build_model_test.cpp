@@ -60,7 +60,7 @@ TEST_P(AcceptDeck, GivesSetsCurvesAndBoxes) {
 
 TEST_P(AcceptDeck, GivesConditions) {
   EXPECT_EQ(m.nodes[0].v, Vec(1, 0, 0));    // INITIAL_VELOCITY, inside the box
-  EXPECT_EQ(m.nodes[3].v, Vec(0, 7, 0));    // _NODE stands above it
+  EXPECT_EQ(m.nodes[3].v, Vec(0, 7, 0));    // _NODE is above it
   EXPECT_EQ(m.nodes[4].v, Vec(-1, 1, -3));  // _GENERATION: V + omega x r
   EXPECT_FALSE(m.parts[0].velocity_given);
   EXPECT_TRUE(m.parts[1].velocity_given);

@@ -114,7 +114,7 @@ TEST(CurveExpression, ACurveFollowsItsFormulaAndJumpsWhereThatDoes) {
 TEST(CurveExpression, CurvesOfADeckTakeNoMoreThanTheirBudgetTogether) {
   SamplingBudget budget;
   Curve curve;
-  for (int k = 0; k < 1000; ++k) {  // usual ones have room, however many
+  for (int k = 0; k < 1000; ++k) {  // usual ones have space, however many
     curve = {};
     ASSERT_EQ(sample_curve([](Real t) { return 2 * t; }, 5, 0, 1, budget, curve), "") << k;
   }

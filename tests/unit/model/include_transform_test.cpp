@@ -347,7 +347,7 @@ TEST(IncludeTransform, ComposesWhenNested) {
                           .other = 600}};
   const Writing whole{
       .units = {.mass = 1000, .time = 1, .length = 1e-3}, .offsets = offsets, .moved = outer * inner};
-  // transformation 2 stands in the outer file: its centre is given in km, its id is shifted by IDDOFF
+  // transformation 2 is in the outer file: its centre is given in km, its id is shifted by IDDOFF
   expect_same_scene(
       whole, "*DEFINE_TRANSFORMATION\n1\nTRANSL, 5.0, -6.0, 7.0\n" + include_transform("outer.k", out, 1),
       {{"outer.k", "*DEFINE_TRANSFORMATION\n2\nROTATE, 0.0, 0.0, 1.0, 2.0, 0.0, 0.0, 90.0\n" +
@@ -511,7 +511,7 @@ TEST(IncludeTransform, PlacesInASystemMoveOnce) {
   expect_near(m.coordinate_systems.at(8).axes.col(1), Vec(-1, 0, 0), "y axis");
   Diagnostics scaled;
   built_with("SCALE, 2.0, 2.0, 2.0", scaled);
-  EXPECT_NE(scaled.text().find("leaves open whether places in a system are, too"), std::string::npos)
+  EXPECT_NE(scaled.text().find("leaves open whether positions in a system are, too"), std::string::npos)
       << scaled.text();
   Diagnostics mirrored;
   built_with("MIRROR, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0", mirrored);
@@ -522,7 +522,7 @@ TEST(IncludeTransform, PlacesInASystemMoveOnce) {
                                       include_transform("part.k", {}, 1) + "*END\n"},
                        {"part.k", vector}}};
   model_of(decks, apart);
-  EXPECT_NE(apart.text().find("system 7 stands in a file that *INCLUDE_TRANSFORM moves otherwise"),
+  EXPECT_NE(apart.text().find("system 7 is in a file that *INCLUDE_TRANSFORM moves otherwise"),
             std::string::npos)
       << apart.text();
 }

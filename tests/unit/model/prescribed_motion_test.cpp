@@ -76,7 +76,7 @@ TEST(PrescribedMotion, ScalesShiftsAndEnds) {
   v.birth = 0.5, v.death = 1;
   EXPECT_NEAR(place(v, 2, 0), 3 * 1.5, 0.031);  // on with the last velocity; a step at BIRTH counts whole
   auto x = motion(Kind::displacement, {0, 1}, {0, 2});
-  x.birth = 0.505;  // within a step: the place at the end is exact all the same
+  x.birth = 0.505;  // within a step: the position at the end is exact all the same
   EXPECT_NEAR(place(x, 1.505, 0), 2, 1e-13);
   x.birth = 0.498;  // in the first half of a step, which is not driven: the next one makes up for it
   EXPECT_NEAR(place(x, 1.4, 0), 2 * (1.4 - 0.498), 1e-13);

@@ -51,7 +51,7 @@ TEST(Solids, InAMirrorStayTheRightWayOut) {
   EXPECT_EQ(model.nodes[model.solids[0].node[0]].x, Vec(3, 0, 4));
 }
 
-// N1 to N8 stand in the table of the one-line and of the two-line form: an offset counts once.
+// N1 to N8 are in the table of the one-line and of the two-line form: an offset counts once.
 TEST(Solids, OfAnIncludeGetTheOffsetsOnce) {
   const std::string one_line = cube, nodes = "21,22,23,24,25,26,27,28";
   const auto at = one_line.find("," + nodes);

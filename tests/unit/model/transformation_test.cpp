@@ -79,7 +79,7 @@ TEST(Transformation, RotatesAboutTwoPoints) {
 }
 
 TEST(Transformation, MovesPointsWithAllOperationsAbove) {
-  // whether a POINT stands above or below the translation, the axis is at x = 11 when it is used
+  // whether a POINT is above or below the translation, the axis is at x = 11 when it is used
   for (const char* operations :
        {"POINT, 1, 1.0\nPOINT, 2, 1.0, 0.0, 1.0\nTRANSL, 10.0\nROTATE, 1, 2, 90.0\n",
         "TRANSL, 10.0\nPOINT, 1, 1.0\nPOINT, 2, 1.0, 0.0, 1.0\nROTATE, 1, 2, 90.0\n"})
@@ -137,8 +137,8 @@ TEST(Transformation, TellsTheLineOfAFault) {
   expect("TRANSL, 1.0\n, 3.0\n", "t.k:5:1: " + option + "'' is no operation");
   expect("ROTATE, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 90.0\n",
          "t.k:4:9: " + a1 + "the axis of the rotation has no direction");
-  expect("ROTATE, 1, , 30.0\n", "t.k:4:9: " + a1 + "POINT 1 does not stand above this line");
-  expect("ROTATE, 1, 2, 90.0\n", "t.k:4:9: " + a1 + "POINT 1 does not stand above this line");
+  expect("ROTATE, 1, , 30.0\n", "t.k:4:9: " + a1 + "POINT 1 is not above this line");
+  expect("ROTATE, 1, 2, 90.0\n", "t.k:4:9: " + a1 + "POINT 1 is not above this line");
   expect("POINT, 1.5\n", "t.k:4:8: " + a1 + "expected the number of a point, an integer > 0, got '1.5'");
   expect("TRANSL, 1.0\nPOS6P, 1, 2, 3, 4, 5, 6\n",
          "t.k:5:1: " + option + "POS6P behind other operations is not supported");
@@ -166,7 +166,7 @@ TEST(Transformation, RefusesNodesThatAreMovedOtherwise) {
   Diagnostics diagnostics;
   Deck deck = decks.read("t.k", diagnostics);
   move_included_entries(deck, diagnostics);
-  EXPECT_NE(diagnostics.text().find("node 1 stands in a file that is moved otherwise than this one"),
+  EXPECT_NE(diagnostics.text().find("node 1 is in a file that is moved otherwise than this one"),
             std::string::npos)
       << diagnostics.text();
 }

@@ -100,7 +100,7 @@ TEST(JobQueue, FullQueueHoldsUpTheSubmitter) {
   });
   while (submitted < 2) std::this_thread::yield();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_EQ(submitted, 2);  // one is running, one waits, the third finds no room
+  EXPECT_EQ(submitted, 2);  // one is running, one waits, the third finds no space
   gate.set_value();
   submitter.join();
   queue.wait();

@@ -138,7 +138,7 @@ TEST(Rigid, ForceOffTheCentreTurnsAndMoves) {
   EXPECT_NEAR((p.bodies->reports()[0].force - Vec(0, 0, 2)).norm(), 0, 1e-15);
 }
 
-/// Two bodies of thousands of nodes, pushed unevenly: their motion and places of nodes after some steps.
+/// Two bodies of thousands of nodes, pushed unevenly: their motion and positions of nodes after some steps.
 std::vector<Real> many_nodes(int on_threads) {
   const int before = threads();
   set_threads(on_threads);

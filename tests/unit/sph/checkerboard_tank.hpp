@@ -34,7 +34,7 @@ inline std::unique_ptr<Simulation> checkerboard_tank(const std::string& more, Re
     pressures += fmt::format("{},{:.17g},{:.17g},{:.17g},0,0,0,0\n", k + 1, -p, -p, -p);
   }
   return build_deck(text + elements + pressures + "*END\n",
-                    copies == 1);  // copies are too heavy for their place
+                    copies == 1);  // copies are too heavy for their position
 }
 
 /// Mean square of what two neighbours in a row of that tank differ by, less the change along the row that

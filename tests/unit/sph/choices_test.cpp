@@ -1,5 +1,5 @@
 // Choices multiply: every pair of choices of an SPH deck runs, keeps momentum and accounts for its energy, or
-// is refused by name and stands in docs/choices.md with the reason.
+// is refused by name and is in docs/choices.md with the reason.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -22,7 +22,7 @@ struct ExpectedDrift {
   Matrix velocity_gradient = Matrix::Zero();
   Real spread = 0, filling = 0, rate = 0, drift_rate = 0;
   Real weight = 0;     ///< of XSPH
-  Real round_off = 0;  ///< of the rates, where two particles stand in one place
+  Real round_off = 0;  ///< of the rates, where two particles are in one position
   bool edge = false;
 };
 
@@ -65,7 +65,7 @@ ExpectedDrift oracle(Particles& p, Index i, Real surface, Real half_step) {
     e.normal += V * (spread[j] - spread[i]) * grad;
     e.spread -= V * d.dot(grad);
     e.velocity_gradient += V * u * grad.transpose();
-    // grad W half a step ago, by differences: of the way by velocity it is taken elsewhere
+    // grad W half a step ago, by differences: of the path by velocity it is taken elsewhere
     const Vec w = drifted.vec(i) - drifted.vec(j), v = -u;
     const auto slope_at = [&](const Vec& y) { return Vec(slope<Dim>(y.norm(), h) / y.norm() * y); };
     const auto changed = [&](const Vec& way) {
@@ -105,7 +105,7 @@ void compare(bool uniform_h, bool alone, std::optional<Neighbours::Region> regio
     if (!uniform_h) p.h[i] *= 1 + 0.3 * u(random);
     sph_fields::spread(p)[i] = Dim + 0.6 * u(random);
   }
-  p.x.set(3, p.x.vec(4));  // two particles in one place
+  p.x.set(3, p.x.vec(4));  // two particles in one position
   cloud.refresh();
   for (Index i = 0; i < p.moving; ++i)
     sph_fields::drifted(p).set(i, {u(random), u(random), Dim == 3 ? u(random) : 0});

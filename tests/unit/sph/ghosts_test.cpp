@@ -72,7 +72,7 @@ States run(const Tank& tank, Simulation** keep = nullptr) {
   return out;
 }
 
-/// Of every particle of `part`; `shift` brings its place to that in `whole`.
+/// Of every particle of `part`; `shift` brings its position to that in `whole`.
 void expect_same(const States& part, const States& whole, Real period = 0) {
   ASSERT_FALSE(part.empty());
   Real moved = 0;

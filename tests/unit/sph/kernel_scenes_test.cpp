@@ -31,7 +31,7 @@ std::string lattice() {
 }
 const std::string sides = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,1,0,0\n1,0,0,0,0,0\n";
 const std::string bottom = "*BOUNDARY_SPH_SYMMETRY_PLANE\n0,0,0,0,1,0\n";
-/// Shells whose contact surfaces stand at y = 0, x = 0 and x = 1.
+/// Shells whose contact surfaces are at y = 0, x = 0 and x = 1.
 const std::string plates =
     "*NODE\n9001,-1,-0.025,-1\n9002,2,-0.025,-1\n9003,2,-0.025,1\n9004,-1,-0.025,1\n"
     "9005,-0.025,-1,-1\n9006,-0.025,3,-1\n9007,-0.025,3,1\n9008,-0.025,-1,1\n"

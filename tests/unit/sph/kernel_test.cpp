@@ -32,7 +32,7 @@ Real integral(Real h) {
   return total;
 }
 
-/// Calls f(R) at places within the support, none of them at a knot.
+/// Calls f(R) at positions within the support, none of them at a knot.
 template <class Kernel, class F>
 void at_places(F&& f) {
   for (int k = 0; k < 200; ++k) f((k + 0.37) / 200 * Kernel::support);
@@ -161,13 +161,14 @@ Real work_of_shear(KernelChoice choice, Real h, Real turn, Real strain) {
     }
   return sum;
 }
-/// Of the lattice under pressure p, over p; < 0: it gives way.
+/// Of the lattice under pressure p, over p; < 0: it yields.
 Real shear_stiffness(KernelChoice choice, Real h, Real turn) {
   const Real d = 1e-4;
   return (work_of_shear(choice, h, turn, d) - work_of_shear(choice, h, turn, -d)) / (2 * d);
 }
 
-// The table of docs/theory.md: how much the sums of a lattice resist shear that leaves its density as it is.
+// The table of docs/theory_sph.md: how much the sums of a lattice resist shear that leaves its density as it
+// is.
 TEST(KernelChoice, SaysHowStiffALatticeUnderPressureIs) {
   const Real diagonal = pi / 4;
   EXPECT_NEAR(shear_stiffness(KernelChoice::cubic_spline, 1.2, 0), 0.282, 5e-4);

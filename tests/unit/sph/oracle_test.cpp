@@ -145,7 +145,8 @@ void evaluate(Cloud& cloud, const Terms& c) {
   cloud.run_forces();
 }
 
-/// A later step of the window: other velocities and pressures, which count, and other places, which do not.
+/// A later step of the window: other velocities and pressures, which count, and other positions, which do
+/// not.
 void evaluate_again(Cloud& cloud, const Terms& c, std::mt19937& random) {
   Particles& p = cloud.world.particles;
   std::uniform_real_distribution<Real> u(-1, 1);
@@ -154,7 +155,7 @@ void evaluate_again(Cloud& cloud, const Terms& c, std::mt19937& random) {
     x.push_back(p.x.vec(i));
     p.x.set(i, x.back() + Vec(0.001 * u(random), 0.001 * u(random), 0));
     p.v.set(i, {u(random), u(random), cloud.world.dim == 3 ? u(random) : 0});
-    p.p[i] = 300 - 0.7 * p.p[i];  // as equal as before for the two in one place
+    p.p[i] = 300 - 0.7 * p.p[i];  // as equal as before for the two in one position
     p.f.set(i, Vec::Zero());
   }
   evaluate(cloud, c);
@@ -184,7 +185,7 @@ void compare(const Terms& c, std::optional<Neighbours::Region> region) {
     p.m[i] *= 1 + 0.3 * u(random);
     if (!c.uniform_h) p.h[i] *= 1 + 0.3 * u(random);
   }
-  p.x.set(3, p.x.vec(4)), p.p[3] = p.p[4];  // two particles in one place
+  p.x.set(3, p.x.vec(4)), p.p[3] = p.p[4];  // two particles in one position
   cloud.settings.kernel = c.kernel;
   cloud.settings.uniform_h = c.uniform_h;
   cloud.settings.viscosity =

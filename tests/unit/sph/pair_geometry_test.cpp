@@ -88,7 +88,7 @@ TEST(PairGeometry, WindowLastsUntilTheFastestMayHaveMovedHalfOfEps) {
   Window window(0.02);
   const Real h = 0.1, dt = 1e-4, v = 0.95;  // EPS h/2 = 10.5 v dt: the eleventh step passes the bound
   ASSERT_TRUE(window.open(h, dt, 1));
-  EXPECT_EQ(window.ahead(), 0);  // no step yet tells how fast particles are
+  EXPECT_EQ(window.ahead(), 0);  // no step yet states how fast particles are
   for (int turn = 0; turn < 2; ++turn) {
     for (int k = 0; k < 10; ++k) {
       window.moved(v, h, dt);

@@ -80,7 +80,7 @@ struct RiemannCloud : Cloud {
       p.m[i] *= 1 + 0.3 * u(random);
       c[static_cast<std::size_t>(i)] = 30 + 5 * u(random);
     }
-    p.x.set(3, p.x.vec(4));  // two particles in one place
+    p.x.set(3, p.x.vec(4));  // two particles in one position
     add_riemann(settings, world, neighbours, make_pair_volumes(world));
     refresh();
     for (Index i = 0; i < p.moving; ++i) {

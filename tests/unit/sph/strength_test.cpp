@@ -77,7 +77,7 @@ TEST(Spin, IsHalfTheCurlOfTheVelocity) {
 }
 
 TEST(Strength, StressTurnsWithTheBodyForAHundredTurns) {
-  // A particle that turns by an angle a step: of the places at the end of the step its velocities have the
+  // A particle that turns by an angle a step: of the positions at the end of the step its velocities have the
   // gradient (1 - R^T)/dt, whose symmetric part is not 0.
   Rubber cloud(2, 2);
   World& w = cloud.world;

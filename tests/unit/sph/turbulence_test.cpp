@@ -47,7 +47,7 @@ TEST(WallDistance, IsThatOfTheNearestPointAlsoBesideEdgesAndCorners) {
   }
 }
 
-/// Cells in which particles stand know the faces next to them: the answer is that of a search anew, bit by
+/// Cells in which particles stand know the faces next to them: the answer is that of a search again, bit by
 /// bit.
 TEST(WallDistance, OfHeldWallsIsTheSameFromCellsThatAreKnown) {
   for (const int dim : {2, 3})

@@ -1,4 +1,4 @@
-// *COURANT_VOLUME_CONTROL: density and places agree again.
+// *COURANT_VOLUME_CONTROL: density and positions agree again.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -86,7 +86,7 @@ TEST(VolumeControl, LeavesASurfaceAlone) {
   }
 }
 
-/// A drop of one particle, one of two in nearly the same place, and a row.
+/// A drop of one particle, one of two in nearly the same position, and a row.
 TEST(VolumeControl, LeavesSprayAlone) {
   Places places{{0, 0}, {5, 0}, {5.002, 0}, {0, 5}, {0.1, 5}, {0.2, 5}, {0.3, 5}, {0.4, 5}};
   const auto spray = static_cast<Id>(places.size());

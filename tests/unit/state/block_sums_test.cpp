@@ -21,7 +21,8 @@ Field<Index> corners_of_squares(Index n) {
   return node;
 }
 
-// What nodes get of all places is what they get of all corners, block by block, and nothing of a step before.
+// What nodes get of all positions is what they get of all corners, block by block, and nothing of a step
+// before.
 TEST(BlockSums, NodesGetWhatTheirCornersHave) {
   constexpr Index n = 13, count = n * n;
   const Field<Index> node = corners_of_squares(n);
@@ -49,7 +50,7 @@ TEST(BlockSums, NodesGetWhatTheirCornersHave) {
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR((found[k] - expected[k]).norm(), 0, 1e-14) << k;
 }
 
-// A block has a place for each of its nodes, once.
+// A block has a position for each of its nodes, once.
 TEST(BlockSums, PlacesAreTheNodesOfEachBlock) {
   const Field<Index> node = corners_of_squares(8);
   EXPECT_EQ(BlockSums(node, 64, "squares").nodes().size(), 81u);

@@ -35,7 +35,7 @@ BeamDeck released_line(int n, const std::function<const char*(int)>& codes,
 }
 constexpr Real stiffness_of_released = 175;  // EI
 
-/// Of a node, the time between crossings of its place at rest.
+/// Of a node, the time between crossings of its position at rest.
 Real released_frequency(Simulation& s, int axis, Index node, int count) {
   std::vector<Real> at;
   Real before = 0, t_before = 0;
@@ -51,7 +51,7 @@ Real released_frequency(Simulation& s, int axis, Index node, int count) {
 }  // namespace
 
 // Clamped nodes, hinges at the outer ends: pi/(2 L^2) sqrt(EI/(rho A)) = 23.45331 Hz, as a beam that is
-// simply supported; with one hinge 36.6399 Hz (15.4182 in place of pi^2).
+// simply supported; with one hinge 36.6399 Hz (15.4182 instead of pi^2).
 TEST(ReleasedBeams, FrequencyBetweenHinges) {
   for (const bool both : {true, false})
     for (const int axis : {1, 2})

@@ -132,7 +132,7 @@ TEST(BeamRules, PointsByHandAreThoseOfGauss) {
   EXPECT_NEAR(by_rule / by_gauss, 1, 1e-7);
 }
 
-// Under a pull through the middle of its box a T bends: w'' = M/(EI) with M = P e, e to its centroid.
+// Under a axial force through the middle of its box a T bends: w'' = M/(EI) with M = P e, e to its centroid.
 TEST(BeamRules, PullOffTheCentroidBends) {
   const Real E = 2.1e8, L = 2, P = 200;
   const std::string rule = "*INTEGRATION_BEAM\n7,0,0.0,4\n0.05,0.008,0.06,0.005\n";
@@ -149,7 +149,7 @@ TEST(BeamRules, PullOffTheCentroidBends) {
   auto s = simulation_of(deck.text(20));
   ASSERT_NE(s, nullptr);
   while (s->clock().t < 2.2) s->step(do_nothing);
-  // the pull straightens the bow, too: a beam with M = P e at its ends under P, k^2 = P/EI
+  // the axial force straightens the bow, too: a beam with M = P e at its ends under P, k^2 = P/EI
   const Real k = std::sqrt(P / (E * I)), exact = e * (1 - 1 / std::cosh(k * L));
   EXPECT_NEAR(s->world().nodes.x.data(2)[n] / exact, 1, 0.01);
 }
@@ -216,7 +216,7 @@ TEST(BeamRules, AreRefusedByName) {
   expect("*INTEGRATION_BEAM\n7,0,0.0,13\n0.05,0.01,0.1,0.01\n", "'13' is not supported: 1 to 9 and 11 are");
   expect("*INTEGRATION_BEAM\n7,0,0.0,1\n0.05,0.06,0.1,0.01\n", "flanges must be thinner than D");
   expect("*INTEGRATION_BEAM\n7,1,0.0,0\n0.0,0.0,1.0\n", "the section has no area");
-  expect("*INTEGRATION_BEAM\n7,2,1.0,0\n0.0,0.0,1.0\n", "1 points stand here, not 2");
+  expect("*INTEGRATION_BEAM\n7,2,1.0,0\n0.0,0.0,1.0\n", "1 points are given, not 2");
   expect("*INTEGRATION_BEAM\n7,1,1.0,0\n0.0,1.5,1.0\n", "point 1 lies outside of the section");
   expect("*INTEGRATION_BEAM\n7,1,1.0,0\n0.0,0.5,0.5\n", "the weights sum up to 0.5");
   expect("*INTEGRATION_BEAM\n7,1,1.0,0\n0.0,0.5,1.0,1\n", "PID");

@@ -202,7 +202,7 @@ TEST(Beams, FreeSpinStaysRigid) {
     start_ledger(*s);
     while (s->clock().t < 0.5) s->step(test::do_nothing);
     const Nodes& nodes = s->world().nodes;
-    // stretched by its own pull, rho omega^2 L^2/(12 E) of its length
+    // stretched by its own axial force, rho omega^2 L^2/(12 E) of its length
     EXPECT_NEAR((nodes.x.vec(4) - nodes.x.vec(0)).norm(), 1, 1e-4);
     EXPECT_NEAR((nodes.x.vec(2) - 0.5 * (nodes.x.vec(0) + nodes.x.vec(4))).norm(), 0, 1e-3);
     EXPECT_LT(test::energy_error_of_a_step(*s), 0.01);
@@ -267,8 +267,8 @@ TEST(Beams, PlasticTruss) {
   }
 }
 
-// Layers of points carry sigma_y A h/2 times the sum of their weights and places, by hand: of Gauss 2, 3, 4
-// and of Lobatto 3.
+// Layers of points carry sigma_y A h/2 times the sum of their weights and positions, by hand: of Gauss 2, 3,
+// 4 and of Lobatto 3.
 TEST(Beams, PlasticBending) {
   for (const auto& [rule, share] : {std::pair(2, 0.57735), {3, 0.43033}, {5, 0.52127}, {4, 1.0 / 3}}) {
     BeamDeck deck;

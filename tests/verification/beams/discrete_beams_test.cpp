@@ -170,7 +170,7 @@ TEST(DiscreteBeams, TurnAsOneWithoutForce) {
   }
 }
 
-// Force P across at end 2, L away: it turns by P L/(2 RK), and gives way by P/TK + P L^2/(4 RK).
+// Force P across at end 2, L away: it turns by P L/(2 RK), and yields by P/TK + P L^2/(4 RK).
 TEST(DiscreteBeams, ShearForcesTurnTheEnds) {
   const Real P = 0.05, L = 0.5;
   for (const int scoor : {-3, -1}) {

@@ -18,7 +18,7 @@ using test::start_ledger;
 
 namespace {
 
-/// Masses at places, and springs between them; material and section of part p have the number p.
+/// Masses at positions, and springs between them; material and section of part p have the number p.
 struct SpringDeck {
   std::string nodes, masses, springs, cards;
   int node = 0, spring = 0;
@@ -240,7 +240,7 @@ TEST(Springs, FieldsOfTheCards) {
   deck.springs = "       1       1       1       0       3             2.0       0             0.1\n";
   auto s = simulation_of(deck.text(1));
   s->step(test::do_nothing);
-  // the ground stands at the end of the vector: the node moves away from it at speed 1
+  // the ground is at the end of the vector: the node moves away from it at speed 1
   const SpringForce spring = springs_of(*s).at(0);
   EXPECT_NEAR(spring.stretch, 0.1, 1e-12);
   EXPECT_NEAR(spring.resultant, 2 * 100 * 0.1 * (1 + 0.5 * 1 / 4.0), 1e-9);
@@ -317,7 +317,7 @@ TEST(Springs, CircularOrbit) {
   EXPECT_NEAR(s->world().nodes.x.data(0)[1], 1.1, 0.01);  // after two turns
 }
 
-// A mass between two springs that pull with 100, whatever their length: across, it is held by 2 F/L.
+// A mass between two springs that axial force with 100, whatever their length: across, it is held by 2 F/L.
 TEST(Springs, PullHoldsAcross) {
   SpringDeck deck;
   deck.cards = "*CONTROL_TIMESTEP\n       0.0       0.9\n";

@@ -99,7 +99,7 @@ TEST(Welds, WhatTheyStoredIsDissipated) {
   EXPECT_NEAR(s->world().nodes.f.data(2)[1], 6000 * (s->clock().t - s->clock().dt_old) / 1e-3, 5);
 }
 
-// sigma = SIGY + EH (e - sigma/E) in a slow pull, until e - sigma/E = EFAIL.
+// sigma = SIGY + EH (e - sigma/E) in a slow axial force, until e - sigma/E = EFAIL.
 // One that breaks within the first looks of the guard ends no healthy run, and the ledger closes: forces of
 // the step in which it breaks never push.
 TEST(Welds, BreakEarlyWithoutEnergyFromNowhere) {

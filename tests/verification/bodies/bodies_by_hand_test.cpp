@@ -31,7 +31,7 @@ Vec spin_of(const Simulation& s) {
 
 }  // namespace
 
-// An arm that is locked to the ground carries m g and, at the joint, m g times the way to its centre; what
+// An arm that is locked to the ground carries m g and, at the joint, m g times the path to its centre; what
 // jntforc prints is what the joint tells.
 TEST(BodiesByHand, ALockedJointCarriesItsArm) {
   JointDeck deck;

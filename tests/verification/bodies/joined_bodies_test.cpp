@@ -122,7 +122,7 @@ TEST(MergedBodies, FormChainsAndMayShareNodes) {
   EXPECT_NEAR((b.J0 - J).norm(), 0, 1e-11 * J.norm());
 }
 
-// With *PART_INERTIA of the lead, IFLAG tells whether the other part is in it.
+// With *PART_INERTIA of the lead, IFLAG states whether the other part is in it.
 TEST(MergedBodies, GivenInertiaStandsForAllUnlessIflagAdds) {
   for (const int iflag : {0, 1}) {
     SolidDeck deck;

@@ -25,7 +25,7 @@ struct JointDeck {
   std::string parts, nodes, elements, extra, joints, more;
   int bodies = 0, node = 0;
 
-  /// A cube of no meaning around the centre stands for it. Returns its part.
+  /// A cube of no meaning around the centre represents it. Returns its part.
   int body(const GivenBody& b) {
     const int part = ++bodies, first = node + 1;
     for (int k = 0; k < 8; ++k)
@@ -71,7 +71,7 @@ struct JointDeck {
     }
     joints += fmt::format("*CONSTRAINED_JOINT_{}_ID\n{:10}joint\n{}\n{}\n", kind, ++joint_, ids, card);
   }
-  /// A motor about, or along, an axis through a place; `type`: 0 velocities, 1 accelerations, 2
+  /// A motor about, or along, an axis through a position; `type`: 0 velocities, 1 accelerations, 2
   /// displacements.
   void motor(const std::string& kind, int a, int b, const Vec& x, const Vec& axis, int curve, int type) {
     joint_at(kind + "_MOTOR", a, b, {x, x, x + axis, x + axis}, fmt::format(",{},{}", curve, type));

@@ -1,4 +1,4 @@
-// Joints as penalty springs: where the places of a deck contradict each other.
+// Joints as penalty springs: where the positions of a deck contradict each other.
 #include <gtest/gtest.h>
 
 #include <algorithm>

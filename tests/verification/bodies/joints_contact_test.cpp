@@ -51,7 +51,7 @@ Vec momentum(const Simulation& s) {
 
 }  // namespace
 
-// Hinge and slide across the fall do not let the plate give way either.
+// Hinge and slide across the fall do not let the plate yield either.
 TEST(JointsInContact, NothingLeaksThroughAPlateThatAJointHolds) {
   const struct {
     const char *kind, *ids;

@@ -92,7 +92,7 @@ TEST(JointLimits, TwoHingesALittleAskewDoNotBrakeADoor) {
   }
 }
 
-// Two bodies are driven apart: their exact joint gives way where it is open by no more than its own size
+// Two bodies are driven apart: their exact joint yields where it is open by no more than its own size
 // allows, wherever the scene stands; one that may become a spring, by a twentieth of it.
 TEST(JointLimits, WhatDrivesAJointApartStopsTheRun) {
   for (const Real far : {0.0, 100.0, 10000.0})

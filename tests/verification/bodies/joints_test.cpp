@@ -137,7 +137,7 @@ TEST(Joints, SliderCrankFollowsTheClosedForm) {
 }
 
 // Axes a little askew, as the digits of a deck leave them, would lock a four-bar linkage of rigid bodies: it
-// swings all the same, and the summary tells how far its joints open.
+// swings all the same, and the summary states how far its joints open.
 TEST(Joints, ALinkageWithAxesALittleAskewSwings) {
   const Real slight = 1e-6, g = 9.81;
   JointDeck deck;
@@ -246,7 +246,7 @@ TEST(Joints, EachKindKeepsMomentumAndEnergy) {
     deck.joint(one.kind, a, b, one.places, 0.05);
     auto s = simulation_of(deck.text(4));
     const auto& bodies = s->bodies()->bodies();
-    const auto total = [&] {  // of v and L of the half step with places of the step before: exact
+    const auto total = [&] {  // of v and L of the half step with positions of the step before: exact
       Vec p = Vec::Zero(), L = Vec::Zero();
       for (const RigidBody& body : bodies) {
         const Vec x = body.x - body.v * (s->clock().t > 0 ? s->clock().dt_old : 0);

@@ -38,7 +38,7 @@ Real energy_error(Simulation& s) {
   return std::abs(s.world().energy.residual()) / s.world().energy.throughput;
 }
 
-/// Momentum, and angular momentum of v and L of the half step with places of the step before: exact.
+/// Momentum, and angular momentum of v and L of the half step with positions of the step before: exact.
 std::pair<Vec, Vec> momenta(Simulation& s) {
   Vec p = Vec::Zero(), L = Vec::Zero();
   for (const RigidBody& b : s.bodies()->bodies()) {
@@ -127,7 +127,7 @@ TEST(Motors, AnAcceleratingMotorGoesOnFromTheSpeedItHas) {
   }
 }
 
-// Speed at once: the wheel at rest gets it before the first step, and it is told.
+// Speed at once: the wheel at rest gets it before the first step, and it is reported.
 TEST(Motors, ThatRunAtOnceAreTold) {
   JointDeck deck;
   const int base = deck.body({.m = 5, .J = about(0.5, 0.3)}), wheel = deck.body({.J = about(0.2, 0.1)});

@@ -104,7 +104,7 @@ TEST(NodeInertias, ATopTurnsOverAsEulerSays) {
   EXPECT_NEAR(std::log2(error[1] / error[2]), 2, 0.1);
 }
 
-// With CSID the same top stands in the axes of a system.
+// With CSID the same top is in the axes of a system.
 TEST(NodeInertias, CsidGivesThePrincipalAxes) {
   const Vec start(0.4, 1, 2);
   const auto end = [&](const std::string& text) {

@@ -155,7 +155,7 @@ TEST(SwitchedParts, HitAsIfTheyHadNeverBeenRigid) {
     SolidDeck deck;
     deck.block(Vec(0.5, 0.2, 0.2), 5, 2, 2, 1, [](const Vec& x) { return Vec(x + Vec(0.1, 0.03, 0.02)); });
     const std::size_t first = deck.nodes.size();
-    // one step for all: bulk viscosity heeds the sign of round-off
+    // one step for all: bulk viscosity respects the sign of round-off
     deck.cards = solid_part +
                  "*CONTROL_TIMESTEP\n0.0,0.9,0,0.0,0.0,9\n*DEFINE_CURVE\n9\n0.0,0.001\n9.0,0.001\n" +
                  fmt::format("*SET_NODE_LIST_GENERATE\n1\n1,{}\n*INITIAL_VELOCITY\n1\n-2.0,0.0,0.0\n", first);

@@ -161,7 +161,7 @@ TEST(ContactBeside, ABlockSlidesAtItsSpeedOrStopsByFriction) {
         const Vec start = mean(nodes.x);
         while (s->clock().t < 0.4) s->step(test::do_nothing);
         if (friction == 0)
-          // at a seam nodes that bear weight give back what they store, m g/2 times their depth
+          // at a seam nodes that bear weight return what they store, m g/2 times their depth
           EXPECT_NEAR(mean(nodes.v)[0], v, (two ? 5e-3 : 1e-3) * v) << kind << " " << two;
         else
           EXPECT_NEAR((mean(nodes.x) - start)[0], v * v / (2 * friction * g),
@@ -186,7 +186,7 @@ TEST(ContactBeside, ABlockThatStartsInTheFloorSlidesOn) {
   }
 }
 
-// A wall that stands on a floor of the same body: the block's lower edge is level with the floor, but that
+// A wall that is on a floor of the same body: the block's lower edge is level with the floor, but that
 // does not rise in front of it.
 TEST(ContactBeside, ABlockOnAFloorMeetsAWallOfTheSameBody) {
   for (const auto& [kind, rows] :

@@ -1,4 +1,4 @@
-// Contact of nodes with faces at its ends: rigid blocks of many nodes with damping, tools that give way
+// Contact of nodes with faces at its ends: rigid blocks of many nodes with damping, tools that yield
 // nowhere, soft floors before stiff walls.
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(ContactExtremes, RigidCubesBounceOnTheirCornersWithoutLosses) {
   }
 }
 
-// The same flat, and a plate of many shells: all nodes come at once, so each place gives way by all springs.
+// The same flat, and a plate of many shells: all nodes come at once, so each position yields by all springs.
 // One spring for each made 7 % of the energy, the masses of nodes lost 3 to 38 %. A single shell is held by
 // springs of two kinds, its own and those of the floor's nodes.
 TEST(ContactExtremes, RigidBodiesThatLandFlatBounceWithoutLosses) {

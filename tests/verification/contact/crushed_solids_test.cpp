@@ -93,7 +93,7 @@ TEST(CrushedSolids, HaveTheStepOfTheSteeperWay) {
 // up/(1 - V1); where it comes to the free end, all springs back along K(s1) and stays as dense as p = 0 has
 // it.
 TEST(CrushedSolids, AShockCrushesAndARarefactionLeavesThemSo) {
-  constexpr Real up = 0.5, ro = 2, modulus = 10;  // C = 10 s all the way, K = 40
+  constexpr Real up = 0.5, ro = 2, modulus = 10;  // C = 10 s all the path, K = 40
   const std::string straight =
       "*MAT_NULL\n1,2.0,-1e20,0.0\n*EOS_TABULATED_COMPACTION\n1,0.0,0.0,1.0,1,0,2\n"
       "*DEFINE_CURVE\n1\n0.0,0.0\n1.0,10.0\n*DEFINE_CURVE\n2\n0.0,40.0\n1.0,40.0\n";

@@ -149,7 +149,7 @@ std::string segment_contact(int depth, const std::string& name = "AUTOMATIC_SING
       depth, 1);
 }
 
-/// A plate that stands on its edge, above one that it hits with this after `way`: edges of n elements each,
+/// A plate that is on its edge, above one that it hits with this after `way`: edges of n elements each,
 /// at an angle.
 test::ShellDeck crossed_plates(int n, Real v, Real t, Real way, Real angle, const std::string& material,
                                const std::string& contact, const Vec& off = Vec::Zero()) {
@@ -341,7 +341,7 @@ TEST(EdgeContact, NetThrowsABallBack) {
     }
 }
 
-// What a step leads so far that no spring could bring it back is told.
+// What a step leads so far that no spring could bring it back is reported.
 TEST(EdgeContact, RodsThatCannotBeHeldAreCounted) {
   int counted = 0;
   for (const Real way : {0.03, 0.08, 0.13, 0.18, 0.23}) {

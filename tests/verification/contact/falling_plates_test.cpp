@@ -50,8 +50,8 @@ Real energy_error_of_fall(Simulation& s, const Plates& p) {
 
 }  // namespace
 
-// Corners that come to touch and leave again make the step go to and fro. Where it could grow at once, a mode
-// of the plate with 1.8 of 2/omega met steps with a period of its own and made 10^5 times the energy.
+// Corners that come to touch and leave again make the step go back and forth. Where it could grow at once, a
+// mode of the plate with 1.8 of 2/omega met steps with a period of its own and made 10^5 times the energy.
 TEST(FallingPlates, BouncingPlatesRingWithTheEnergyThatTheyFellWith) {
   for (const auto& [count, until] : {std::pair(1, 0.1), {3, 0.06}}) {
     const Plates p{.count = count};

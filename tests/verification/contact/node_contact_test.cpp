@@ -188,7 +188,7 @@ TEST(NodeContact, TellsOfWhatIsBehindFacesAtItsBirth) {
   EXPECT_EQ(interface_of(*s).on_surfa, Vec::Zero());
 }
 
-// A column of three: a transducer tells what all contacts do to its parts, and what is inside of it cancels.
+// A column of three: a transducer states what all contacts do to its parts, and what is inside of it cancels.
 TEST(NodeContact, TransducersTellTheForceOnTheirParts) {
   constexpr Real L = 0.1, E = 1e7, rho = 1000, g = 200;
   SolidDeck deck;
@@ -223,7 +223,7 @@ TEST(NodeContact, TransducersTellTheForceOnTheirParts) {
 }
 
 // a = g (sin alpha - mu cos alpha) above the angle of friction; below it the block creeps only as far as the
-// springs of friction give way, mu N / (k of all nodes).
+// springs of friction yield, mu N / (k of all nodes).
 // Small solids on large ones, pressed in by a good part of their own size, cross the edges of the large ones.
 // A part far away with a fine mesh has no influence.
 TEST(NodeContact, ABlockOfSmallSolidsSlidesOverLargeOnes) {

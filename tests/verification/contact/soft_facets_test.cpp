@@ -1,5 +1,5 @@
 // Shells of one point that have no stiffness about the normal: whether the measure of the verdict separates
-// curved ones that give way too far from those that are right.
+// curved ones that yield too far from those that are right.
 #include <gtest/gtest.h>
 
 #include <cmath>

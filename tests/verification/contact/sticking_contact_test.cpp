@@ -19,7 +19,7 @@ namespace {
 
 constexpr Real stick_gap = 0.01;  // more than what holds at the start, 0.05 of a diagonal
 
-/// A cube that stands above a slab of smaller elements and is moved down on it, and then on; E 1e9, density
+/// A cube that is above a slab of smaller elements and is moved down on it, and then on; E 1e9, density
 /// 1000.
 std::string dabbed_deck(const std::string& option, int axis, const std::string& curves) {
   SolidDeck deck;

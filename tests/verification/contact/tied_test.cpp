@@ -371,7 +371,7 @@ TEST(TiedContact, HoldsNodesFarBesideTheirFaces) {
   }
 }
 
-// Nodes go with the face from the start, and what the face's support takes is told as lost.
+// Nodes go with the face from the start, and what the face's support takes is reported as lost.
 TEST(TiedContact, StartsAtRestOnAHeldFace) {
   SolidDeck deck = bar(2, 3, 0.3);
   deck.cards += tie("SURFACE_TO_SURFACE");

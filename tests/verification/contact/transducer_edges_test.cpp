@@ -9,7 +9,7 @@ using namespace courant;
 
 namespace {
 
-/// A plate that stands on its edge falls across the upper edge of another one.
+/// A plate that is on its edge falls across the upper edge of another one.
 std::string plates_edge_on_edge() {
   test::ShellDeck deck;
   deck.plate(0.1, 0.05, 6, 3, 1, [](const Vec& x) { return Vec(x[0] - 0.046, 0.001, x[1] + 0.0021); });

@@ -1,5 +1,5 @@
 // Water and structures that deform: contact of particles with shells and solids, in planes and in space.
-// Equations: docs/theory.md.
+// Equations: docs/theory_contact.md.
 #include <cmath>
 #include <cstdio>
 
@@ -308,7 +308,7 @@ TEST(FluidStructure, ABlockTearsAFreePlateAndNothingIsLost) {
   EXPECT_EQ(w.counters.at("leaked_particles"), 0);
 }
 
-// Once all of it is gone nothing is in the way.
+// Once all of it is gone nothing is in the path.
 TEST(FluidStructure, ADeletedPlateIsNoWall) {
   auto s = test::simulation_of(bird({.fail = "      1e-4", .held = true}));
   const World& w = s->world();

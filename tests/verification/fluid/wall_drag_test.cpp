@@ -1,5 +1,5 @@
-// Walls without slip and belts (LAW 2 of *COURANT_WALL_SUPPORT, *COURANT_WALL_BELT): what water and walls
-// give each other, energy, bits.
+// Walls without slip and moving surfaces (LAW 2 of *COURANT_WALL_SUPPORT, *COURANT_WALL_BELT): what water and
+// walls give each other, energy, bits.
 #include <cmath>
 
 #include "rigid/bodies/rigid.hpp"
@@ -84,8 +84,8 @@ TEST(WallDrag, LeavesWaterThatTurnsWithItsBoxAlone) {
   EXPECT_LT(most, 0.05 * 6 * std::hypot(0.12, 0.08));
 }
 
-/// Stress of a belt on water at rest below it, over mu v/sqrt(pi nu t) of Stokes' first problem, and the
-/// residual of the energy over the belt's work.
+/// Stress of a moving surface on water at rest below it, over mu v/sqrt(pi nu t) of Stokes' first problem,
+/// and the residual of the energy over the moving surface's work.
 std::array<Real, 2> stokes(int method, int n) {
   const auto s = begun(test::deck_of_scene(
       "wall_channel",

@@ -42,7 +42,7 @@ Rest at_rest(const std::string& deck, int n, Real until, Real (*depth_at)(Real, 
   sample_energy(s->world(), s->clock());
   s->world().energy.initial = s->world().energy.total();
   const Particles& p = s->world().particles;
-  std::map<Id, Real> mean;  // of each particle; they are sorted anew now and then
+  std::map<Id, Real> mean;  // of each particle; they are sorted again now and then
   Rest rest;
   int samples = 0;
   while (s->clock().t < until) {
@@ -71,7 +71,7 @@ TEST(WallImages, HoldTwoLevelsBesideAThinWall) {
               100 * mirrors.pressure_error, mirrors.speed, 100 * plain.pressure_error, plain.speed);
   EXPECT_LT(mirrors.pressure_error, 0.02);
   EXPECT_LT(mirrors.speed, 0.005);
-  EXPECT_GT(plain.pressure_error, 0.05);  // who is told apart by this test
+  EXPECT_GT(plain.pressure_error, 0.05);  // who is distinguished by this test
   // coarser: the error is that of about half a row
   const Rest coarse = at_rest(baffle({{"n", "10"}}), 10, 1);
   EXPECT_LT(coarse.pressure_error, 0.06);

@@ -51,7 +51,7 @@ TEST(CurveFormulas, GoTheWayOfASmoothCurve) {
     auto s = test::simulation_of(
         lump("*DEFINE_CURVE_SMOOTH\n" + card + "*BOUNDARY_PRESCRIBED_MOTION_NODE\n2,1,0,1\n"));
     EXPECT_NEAR(place(*s, 0.0999), 0, 1e-12);
-    // in the middle half of the way, with DIST/(TEND - TSTART - TRISE)
+    // in the middle half of the path, with DIST/(TEND - TSTART - TRISE)
     const Real x = place(*s, 0.4);
     EXPECT_NEAR(x, 0.15 + 0.75 * (s->clock().t - 0.4), 1e-6);
     EXPECT_NEAR(s->world().nodes.v.data(0)[1], 0.75, 1e-6);

@@ -226,7 +226,7 @@ TEST(MassScaling, NodesOfBodiesGetNone) {
   for (Index n = 0; n < nodes.size(); ++n) before.push_back(nodes.m[n]);
   const Real first = mass_of_nodes(s->world());
   while (s->clock().t < 40) s->step(do_nothing);
-  // what is told is what nodes got, 4 of the 8 corners
+  // what is reported is what nodes got, 4 of the 8 corners
   const Real got = mass_of_nodes(s->world()) - first;
   EXPECT_NEAR(got, 0.5 * (1 / 0.6 - 1), 0.05);
   EXPECT_NEAR(s->world().maxima["added_mass"], got, 1e-12);

@@ -97,7 +97,7 @@ TEST(PartSums, DeletedShellsHaveNoSection) {
   EXPECT_NEAR(area(), 0.3 * 0.01, 2e-4 * 0.01);
 }
 
-// What deleted elements held is told of their parts: the ledger lost just that.
+// What deleted elements held is reported their parts: the ledger lost just that.
 TEST(PartSums, EnergyOfDeletedElementsIsToldOfTheirPart) {
   const auto expect = [](const std::string& text) {
     auto s = simulation_of(text);

@@ -105,7 +105,7 @@ TEST(Relaxation, DoesNotEndWhileNodesCreep) {
   EXPECT_NEAR((1 - r.end.factor) / (2 * 2 * pi * 8.355 * first->clock().dt), 1, 0.2);
 }
 
-// A loose node that a force drifts for ever does not keep the phase from its end, and the verdict tells of
+// A loose node that a force drifts without end does not keep the phase from its end, and the verdict tells of
 // it.
 TEST(Relaxation, EndsWhereSomethingLooseDrifts) {
   test::SolidDeck deck;
@@ -168,7 +168,7 @@ TEST(Relaxation, ThatDoesNotConvergeIsTold) {
   EXPECT_EQ(courant::run(*alone, "test.k", options).termination, "error");
 }
 
-// A bar that turns about an end, which body loads stand for: u(L) = rho w^2 L^3/(3 E).
+// A bar that turns about an end, which body loads represent: u(L) = rho w^2 L^3/(3 E).
 TEST(Relaxation, ABarThatTurnsIsStretched) {
   for (const int n : {5, 10, 20})
     for (const int elform : {1, 2}) {
@@ -185,14 +185,14 @@ TEST(Relaxation, ABarThatTurnsIsStretched) {
       const Relaxed r = relaxed(deck.text(1));
       EXPECT_TRUE(r.end.converged);
       const Real u = r.run->world().nodes.x.data(0)[n] - 1;
-      const Real of_lumps = 1 + 0.5 / (n * n);  // half an element's mass stands at the end
+      const Real of_lumps = 1 + 0.5 / (n * n);  // half an element's mass is at the end
       EXPECT_NEAR(u / (4.0 / (3 * 4e4)), of_lumps, 1e-3) << n << " " << elform;
     }
 }
 
 // The twisted beam of MacNeal and Harder (1985): 12 x 1.1 x 0.32, a quarter turn, E 29e6, nu 0.22, unit load
 // at the end: 5.424e-3 in the plane of the load, 1.754e-3 out of it.
-// By shells of 2 x 2 points, and by those of one that heed their warp (BWC 1).
+// By shells of 2 x 2 points, and by those of one with warp (BWC 1).
 TEST(Relaxation, TwistedBeam) {
   for (const auto& [nx, ny, within, elform] :
        {std::tuple{24, 4, 0.04, 16}, {48, 8, 0.02, 16}, {24, 4, 0.04, 2}, {48, 8, 0.02, 2}})

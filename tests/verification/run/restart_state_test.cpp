@@ -34,8 +34,8 @@ std::string rubbing_block() {
 }  // namespace
 
 TEST(RestartState, EveryNumberOfARubbingBlockMatters) {
-  // Made anew in each step, kept for what reads the state between steps; or of no effect in this scene: the
-  // driven plate does not give way to springs, lives on from the start, and no node comes to an edge. When
+  // Made again in each step, kept for what reads the state between steps; or of no effect in this scene: the
+  // driven plate does not yield to springs, lives on from the start, and no node comes to an edge. When
   // hourglass modes are looked at next changes no bits of the state.
   const std::set<std::string> made_anew{"clock/dt",
                                         "energy/below",

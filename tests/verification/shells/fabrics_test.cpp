@@ -15,7 +15,7 @@ using test::simulation_of;
 
 namespace {
 
-/// A unit square of n x n shells of ELFORM 5 whose edge y = 0 stands still while y = 1 moves along `axis` as
+/// A unit square of n x n shells of ELFORM 5 whose edge y = 0 is at rest while y = 1 moves along `axis` as
 /// curve 1 has it. `free_sides`: nothing holds x of the nodes between.
 ShellDeck fabric_square(int n, const std::string& material, int axis, const std::string& motion,
                         bool free_sides, int elform = 5) {

@@ -89,7 +89,7 @@ inline Real worst(const Eigen::Matrix<Real, 6, 6>& a, const Eigen::Matrix<Real, 
   return most;
 }
 
-/// One square shell on [0, 1]^2 with what stands in `cards`.
+/// One square shell on [0, 1]^2 with what is in `cards`.
 inline ShellDeck one_shell(const std::string& cards) {
   ShellDeck deck;
   deck.plate(1, 1, 1, 1, 1);

@@ -194,7 +194,7 @@ TEST(LayeredShells, GoWhereTheirStepIsTooSmall) {
   }
 }
 
-// A strip of plies: the shell in the middle is weaker and goes; what stands beside it has SOFT times its
+// A strip of plies: the shell in the middle is weaker and goes; what is beside it has SOFT times its
 // strength.
 TEST(LayeredShells, StrengthFallsBesideDeletedElements) {
   ShellDeck deck;

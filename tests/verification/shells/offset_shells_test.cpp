@@ -104,7 +104,7 @@ TEST(OffsetShells, LayersLieOverTheNodes) {
   const std::string card = "1,2,1\n";
   cards.replace(cards.find(card), card.size(), "1,2,1,-1.0\n");
   const auto expected = about_nodes(laminates::laminate_stiffness(plies), 0.5 * t);
-  // the points stand in the middle of layers: about (1/8)^2 of the bending of each
+  // the points are in the middle of layers: about (1/8)^2 of the bending of each
   EXPECT_LT(laminates::worst(measured_stiffness(one_shell(cards).text(1)), expected), 2e-3);
 }
 

@@ -41,7 +41,7 @@ struct ShellDeck {
       }
     return first;
   }
-  /// *PART, *SECTION_SHELL and what stands in `material` with the part's number as id.
+  /// *PART, *SECTION_SHELL and what is in `material` with the part's number as id.
   void part(int id, Real thickness, const std::string& material, int points = 2, Real shear_factor = 5.0 / 6,
             int hourglass = 0) {
     cards += fmt::format(

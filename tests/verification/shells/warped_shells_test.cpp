@@ -1,4 +1,4 @@
-// Decks of shells with one point in their plane that heed their warp (BWC 1 of *CONTROL_SHELL).
+// Decks of shells with one point in their plane with warp (BWC 1 of *CONTROL_SHELL).
 #include <gtest/gtest.h>
 
 #include <cmath>

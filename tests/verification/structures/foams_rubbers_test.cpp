@@ -45,7 +45,7 @@ TEST(FoamsAndRubbers, CrushingTakesTheAreaUnderTheCurve) {
   }
 }
 
-// Compressed to 60 % and back: W of loading 0.05 + 0.625; of the way back the integral of (0.1 + 0.9
+// Compressed to 60 % and back: W of loading 0.05 + 0.625; of the path back the integral of (0.1 + 0.9
 // (W/0.675)^2) f.
 TEST(FoamsAndRubbers, SoftFoamComesBackWithLessForce) {
   for (const int n : {1, 2}) {

@@ -30,7 +30,7 @@ Vec momentum_of(const World& world) {
 
 }  // namespace
 
-// Axes of the system: x' = y, y' = z, z' = x. Before anything gives way, only along that of the load.
+// Axes of the system: x' = y, y' = z, z' = x. Before anything yields, only along that of the load.
 TEST(LoadsByHand, ForcesAndMomentsAreAlongTheAxesOfTheirSystem) {
   for (const int axis : {0, 1, 2})
     for (const bool moment : {false, true}) {

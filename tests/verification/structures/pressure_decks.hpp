@@ -12,7 +12,7 @@ inline void run_until(Simulation& s, Real t) {
   while (s.clock().t < t) s.step(do_nothing);
 }
 
-/// Where the pressure p of places at x, which falls along x, passes `level`.
+/// Where the pressure p of positions at x, which falls along x, passes `level`.
 template <class Place>
 Real front_of(const std::vector<Place>& places, Real level) {
   for (std::size_t k = places.size() - 1; k > 0; --k) {

@@ -1,5 +1,5 @@
 // Solids of one point that bend in hourglass modes: whether the measure of the verdict separates beams that
-// give way too far from those that are right.
+// yield too far from those that are right.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -51,7 +51,7 @@ std::string shell_bar(int n, int elform, Real coef) {
   return deck.text(10);
 }
 
-/// Fraction of critical damping from the speeds with which a node passes its place at rest, twice in a
+/// Fraction of critical damping from the speeds with which a node passes its position at rest, twice in a
 /// period: v ~ exp(-z pi/sqrt(1 - z^2)) from one to the next.
 struct Decay {
   Real fraction = 0, omega = 0;

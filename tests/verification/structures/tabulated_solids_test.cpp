@@ -24,7 +24,7 @@ std::string driven_at(Real speed, Real back = 1e8) {
 Real moved_by(Real speed, Real t) {
   return speed * (t - 2.5);
 }
-/// When the length is l, on the way out.
+/// When the length is l, on the path out.
 Real time_of(Real speed, Real l) {
   return (l - 1) / speed + 2.5;
 }
@@ -84,7 +84,7 @@ TEST(TabulatedSolids, RubberGivesItsCurveBack) {
   }
 }
 
-// A table: 1 + rate/0.04 times the curve, by rates of l or ln l; on the way back the curve at rest, or not.
+// A table: 1 + rate/0.04 times the curve, by rates of l or ln l; on the path back the curve at rest, or not.
 TEST(TabulatedSolids, RubberIsStiffenedByItsRate) {
   constexpr Real speed = 0.02;
   struct Case {

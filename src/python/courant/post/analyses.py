@@ -126,7 +126,7 @@ def median(values: Sequence[float] | np.ndarray) -> float:
 
 @dataclass
 class Run:
-    """What an analysis finishes with. `above`: the analyses that stand above it in the recipe, by name; `folder`: of the run;
+    """What an analysis finishes with. `above`: the analyses that are above it in the recipe, by name; `folder`: of the run;
     `out`: for what analyses write."""
 
     above: dict[str, Analysis]
@@ -161,7 +161,7 @@ class Analysis:
         return []
 
     def refers(self) -> list[tuple[str, str]]:
-        """Analyses that must stand above it: the key of the recipe and the name there."""
+        """Analyses that must be above it: the key of the recipe and the name there."""
         return []
 
     def begin(self, states: list[StateFiles], diagnostics: Diagnostics) -> None:
@@ -177,7 +177,7 @@ class Analysis:
         """Takes in what was measured at a time; called in the order of the states."""
 
     def finish(self, run: Run) -> None:
-        """Makes the result. Faults are told at `where`."""
+        """Makes the result. Faults are reported at `where`."""
         raise NotImplementedError
 
     def series(self) -> list[Series]:
@@ -213,7 +213,7 @@ class Analysis:
         self.fault(run, "the results have no state in its window in time")
 
     def above(self, run: Run, name: str) -> Analysis | None:
-        """The analysis above with a name; a fault is told, and gives None."""
+        """The analysis above with a name; a fault is reported, and gives None."""
         if name in run.above:
             return run.above[name]
         hint = f"above it stand {', '.join(run.above)}" if run.above else "it must stand above the one that uses it"
@@ -255,7 +255,7 @@ def analysis(kind: str, needs: Sequence[str] | None = None) -> Callable[[Any], A
 
 
 def read_analysis(keys: YamlMap, settings: Settings) -> Analysis | None:
-    """Makes the analysis of one entry of `analyses`. Faults are told; then there may be None."""
+    """Makes the analysis of one entry of `analyses`. Faults are reported; then there may be None."""
     word = keys.text("kind", required=True)
     if word in KINDS:
         made = KINDS[word](keys, settings)

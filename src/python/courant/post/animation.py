@@ -19,7 +19,7 @@ _DPI = 80
 
 
 class MissingProgram(Exception):
-    """A program that is not there; the message tells what to install."""
+    """A program that is not there; the message states what to install."""
 
 
 def _writer(kind: str, rate: float) -> Any:
@@ -47,7 +47,7 @@ def animate(run: Any, view: View, path: Path) -> Path:
     limits = colour_range(ends, view)
     frames = []
     for t in times:
-        # all looked-at states give the window, so that it stands still; the one of this frame is drawn
+        # all looked-at states give the window, so that it is at rest; the one of this frame is drawn
         figure = draw_view(run, view, [scene_of(run.states.at(float(t)), view)], limits, ends)
         frame = io.BytesIO()
         figure.savefig(frame, format="png", dpi=_DPI)

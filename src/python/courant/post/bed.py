@@ -30,7 +30,7 @@ class Bed:
 
     @classmethod
     def read(cls, keys: YamlMap, key: str = "bed") -> Bed:
-        """The level 0 if it is not there. Faults are told."""
+        """The level 0 if it is not there. Faults are reported."""
         node = keys.get(key)
         if node is None:
             return cls(Formula("0", ("x",)))
@@ -54,7 +54,7 @@ class Bed:
         return not self.parts or len(self.pieces) > 0
 
     def find(self, states: list[StateFiles], diagnostics: Diagnostics) -> None:
-        """Takes the traces of the shells of its parts, which must stand still. Faults are told."""
+        """Takes the traces of the shells of its parts, which must be at rest. Faults are reported."""
         if not self.parts or not states:
             return
         first, last = (_traces(one, self.parts, diagnostics) for one in (states[0], states[-1]))

@@ -63,7 +63,7 @@ def up_of(run: Any, flat: bool) -> str:
 
 @dataclass(frozen=True)
 class Camera:
-    """`right`, `up`, `toward`: unit vectors of the picture's axes and of the way to the eye, (3,). Parallel projection, or, with a `distance` of the
+    """`right`, `up`, `toward`: unit vectors of the picture's axes and of the path to the eye, (3,). Parallel projection, or, with a `distance` of the
     eye from `centre`, (3,), perspective: lengths are true in the plane through it [L]."""
 
     right: np.ndarray
@@ -78,7 +78,7 @@ class Camera:
         against the clock around `up` as seen from above, and `elevation` over the horizon [degrees]."""
         above = axis_of(up)
         right = axis_of("y" if up[-1] == "x" else "x")
-        front = -np.cross(above, right)  # the way to the eye at azimuth 0
+        front = -np.cross(above, right)  # the path to the eye at azimuth 0
         a, e = np.radians(azimuth), np.radians(elevation)
         across = np.cos(a) * right - np.sin(a) * front
         side = np.cos(a) * front + np.sin(a) * right

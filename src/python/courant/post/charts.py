@@ -35,7 +35,7 @@ def drop_regimes(axes: Any, tables: dict[str, Any], table: str, labels: list[str
 
 @chart("jump_types")
 def jump_types(axes: Any, tables: dict[str, Any], table: str, y1: float | None = None, step: float = 0.0) -> None:
-    """J over time before the colours of the types, and the place of the toe behind the step on the right [y1, or as it is]."""
+    """J over time before the colours of the types, and the location of the toe behind the step on the right [y1, or as it is]."""
     of = tables[table]
     t, J, toe, types = (of[name] for name in ("t", "J", "toe", "type"))
     ends = np.concatenate(([t[0]], 0.5 * (t[1:] + t[:-1]), [t[-1]])) if len(t) else np.empty(0)

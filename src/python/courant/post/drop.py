@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-TYPES = ("undecided", "A", "B", "A-wave", "B-wave")  # their places are the numbers in tables
+TYPES = ("undecided", "A", "B", "A-wave", "B-wave")  # their locations are the numbers in tables
 _WAVES = (3, 4)
 
 
@@ -102,7 +102,7 @@ def cycles_of(t: np.ndarray, types: np.ndarray) -> Cycles:
 
 
 def shares_of(t: np.ndarray, types: np.ndarray) -> np.ndarray:
-    """Share of the time in each of TYPES: each state stands for the time half-way to its neighbours; (len(TYPES),)."""
+    """Share of the time in each of TYPES: each state represents the time half-way to its neighbours; (len(TYPES),)."""
     if len(t) < 2:
         return np.bincount(types, minlength=len(TYPES)) / max(1, len(t))
     half = 0.5 * np.diff(t)

@@ -8,7 +8,7 @@ A chart of one's own is a function of matplotlib's axes with a decorator; its pa
     def histogram(axes, tables, table, of, bins: float = 20):
         axes.hist(tables[table].find(of).values, int(bins))
 
-and `{name: h, chart: histogram, table: depth, of: depth}` stands under `figures`.
+and `{name: h, chart: histogram, table: depth, of: depth}` is under `figures`.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class Figure:
 
 
 def read_figure(parent: YamlMap, node: Node) -> Figure:
-    """Faults are told."""
+    """Faults are reported."""
     keys = parent.element(node, "figures")
     own = keys.text("chart")
     if own and own not in CHARTS:
@@ -184,7 +184,7 @@ def _is_word(name: str) -> bool:
 
 
 class FiguresData:
-    """Makes the content of figures.json. What a figure names but is not there is told."""
+    """Makes the content of figures.json. What a figure names but is not there is reported."""
 
     def __init__(self, tables: Sequence[Table], images: Sequence[Image], diagnostics: Diagnostics) -> None:
         self.tables, self.images, self.diagnostics = tables, images, diagnostics

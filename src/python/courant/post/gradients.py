@@ -13,7 +13,7 @@ def gradients(x: np.ndarray, V: np.ndarray, h: np.ndarray, values: np.ndarray) -
     """d values_a / d x_b at each particle; shape (n, components, dim). x: (n, dim) [L]; V: (n,) m/rho; h: (n,) [L]; values: (n, components).
 
     Least squares over the neighbours within 2 h: the g for which sum_j V_j W_ij |f_j - f_i - g (x_j - x_i)|^2 is least, with W the cubic spline.
-    It is the renormalised derivative of SPH with W in place of -W'/r; linear fields come out to rounding, on one side of a surface too, at first
+    It is the renormalised derivative of SPH with W instead of -W'/r; linear fields come out to rounding, on one side of a surface too, at first
     order in h otherwise. Along directions in which a particle has no neighbours (a row of particles, a drop alone) it is 0, as nothing is known.
     Source: Randles and Libersky, Comput. Methods Appl. Mech. Eng. 139 (1996), section 3 (renormalisation); Lancaster and Salkauskas, Math.
     Comput. 37 (1981) (least squares).

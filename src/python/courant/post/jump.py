@@ -128,7 +128,7 @@ def _simplified(text: str) -> str:
 
 
 def find_case(title: str, published: list[PublishedRow]) -> str:
-    """The case that a title names: the published case whose name stands in it, blanks and case of letters aside; a digit may not follow
+    """The case that a title names: the published case whose name is in it, blanks and case of letters aside; a digit may not follow
     ("d1/1" is not in "d1/10"). "" if none."""
     text = _simplified(title)
     for row in published:

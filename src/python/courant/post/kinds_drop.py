@@ -178,7 +178,7 @@ def sustained_toe(x: np.ndarray, level: np.ndarray, threshold: float, over: floa
     stays = high.copy()
     for k in range(1, long):
         stays[:-k] &= high[k:]
-    # before the place where it stays over the level it is under it, so that the first crossing of what is left is the toe
+    # before the location where it stays over the level it is under it, so that the first crossing of what is left is the toe
     kept = np.where(np.logical_or.accumulate(stays, axis=0), level, np.fmin(np.nan_to_num(level, nan=threshold), threshold))
     return toe_of(x, kept, threshold, level.shape[1])
 
@@ -195,7 +195,7 @@ def moving_mean(t: np.ndarray, values: np.ndarray, width: float) -> np.ndarray:
     return out
 
 
-REGIMES = ("undecided", "A-jump", "B-jump", "A-wave", "B-wave", "wave jump", "A-B", "A-B-wave")  # their places are the numbers in tables
+REGIMES = ("undecided", "A-jump", "B-jump", "A-wave", "B-wave", "wave jump", "A-B", "A-B-wave")  # their locations are the numbers in tables
 
 
 _TEST = keys_of_map("test of a drop", "name text!, y1 number!, yt number!, v1 number!, height number, type text")

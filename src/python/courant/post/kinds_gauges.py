@@ -38,7 +38,7 @@ _GAUGES = keys_of_map(
 class GaugesAnalysis(Analysis):
     """Level of the surface, and quantities at a height over the bed, at distances from the mean place of the toe, over time.
 
-    As that place is known at the end alone, all of a range of places is measured, and linear interpolation finds what lies between two of them.
+    As that location is known at the end alone, all of a range of locations is measured, and linear interpolation finds what lies between two of them.
     """
 
     def __init__(self, keys: YamlMap, settings: Settings) -> None:
@@ -100,7 +100,7 @@ class GaugesAnalysis(Analysis):
         return self.found
 
     def _find_toe(self, run: Run) -> float | None:
-        """`toe` is a number, or the name of an analysis with a mean toe; a fault is told, and gives None."""
+        """`toe` is a number, or the name of an analysis with a mean toe; a fault is reported, and gives None."""
         number = as_number(self.toe)
         if number is not None:
             return number
@@ -163,7 +163,7 @@ _CORRELATION = keys_of_map("analysis correlation", "kind text!, name text!, of a
 
 @analysis("correlation")
 class CorrelationAnalysis(Analysis):
-    """Pearson's correlation over time between series of another analysis at the same place, over their places."""
+    """Pearson's correlation over time between series of another analysis at the same location, over their locations."""
 
     needs_states = False
 

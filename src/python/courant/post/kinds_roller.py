@@ -86,7 +86,7 @@ class RollerAnalysis(Analysis):
         return False
 
     def _columns(self, run: Run, name: str, table_name: str, wanted: tuple[str, ...]) -> list[np.ndarray] | None:
-        """Columns of a table of an analysis above; None if it is not there or lacks one, which is told."""
+        """Columns of a table of an analysis above; None if it is not there or lacks one, which is reported."""
         source = self.above(run, name)
         if source is None:
             return None

@@ -231,7 +231,7 @@ class SpectrumAnalysis(Analysis):
         super().__init__(keys, settings)
         keys.allow(*_SPECTRUM)
         self.of, self.window = keys.text("of", required=True), TimeWindow.read(keys)
-        self.only = keys.texts("only")  # of the series, or of what stands before their @
+        self.only = keys.texts("only")  # of the series, or of what is before their @
         segment, overlap = keys.positive("segment"), keys.number("overlap", 0.5)
         if not 0 <= overlap < 0.95:
             keys.error(keys.get("overlap") or keys.node, f"'{keys.name}.overlap' must be 0 to 0.95, got {overlap:g}")
@@ -382,7 +382,7 @@ class ToeAnalysis(Analysis):
 
 
 def toe_of(x: np.ndarray, depth: np.ndarray, threshold: float, states: int) -> np.ndarray:
-    """The first crossing of a threshold along x in each state, linear between the places; NaN: nowhere. Shape (states,) [L].
+    """The first crossing of a threshold along x in each state, linear between the locations; NaN: nowhere. Shape (states,) [L].
 
     x: (places,), depth: (places, states) [L].
     """

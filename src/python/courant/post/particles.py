@@ -122,7 +122,7 @@ class Pieces(NamedTuple):
 
 
 def pairs_near(x: np.ndarray, order: np.ndarray, at: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of places and coordinates at most `reach` apart: index into `at`, rising, and into x. `order`: of x, from low to high."""
+    """Pairs of locations and coordinates at most `reach` apart: index into `at`, rising, and into x. `order`: of x, from low to high."""
     begin, end = np.searchsorted(x[order], at - reach, "left"), np.searchsorted(x[order], at + reach, "right")
     count = end - begin
     place = np.repeat(np.arange(len(at)), count)

@@ -69,7 +69,7 @@ class Raster:
 
     def faces(self, uvw: np.ndarray, corners: np.ndarray, colour: np.ndarray, normals: np.ndarray, lines: bool = True) -> None:
         """Opaque faces. uvw: (points, 3) [L]; corners: (faces, 4) of points; colour: (faces, 3) or, one for each corner, (faces, 4, 3); normals:
-        (faces, 3) in the picture's axes, turned either way. `lines`: the sides of faces are darker."""
+        (faces, 3) in the picture's axes, turned in either case. `lines`: the sides of faces are darker."""
         at = self.pixels(uvw)
         toward = np.where(normals[:, 2:] < 0, -1, 1) * normals
         shine = _AMBIENT + (1 - _AMBIENT) * np.clip(toward @ LIGHT, 0, 1)

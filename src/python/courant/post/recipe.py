@@ -130,7 +130,7 @@ def _read_settings(keys: YamlMap, units: Units) -> Settings:
 def _read_one(keys: YamlMap, node: Node, recipe: Recipe) -> None:
     name = next((scalar_text(value) for word, value in node.value if scalar_text(word) == "name"), "") if is_map(node) else ""
     entry = keys.element(node, name or "analyses")
-    one = read_analysis(entry, recipe.settings) if is_map(node) else None  # else the reader has told
+    one = read_analysis(entry, recipe.settings) if is_map(node) else None  # else the reader has reported
     if one is None:
         return
     named = {other.name for other in recipe.analyses}

@@ -155,7 +155,7 @@ def _views(recipe: Recipe, folder: Path, out: Path, diagnostics: Diagnostics) ->
 
 
 def _tell_missing(recipe: Recipe, states: list[StateFiles], say: Say) -> None:
-    """Which numbers of the recipe stand in for arrays that the files lack."""
+    """Which numbers of the recipe are in for arrays that the files lack."""
     file = open_field(states[0].particles, Diagnostics()) if states and states[0].particles and recipe.missing else None
     if file is not None:
         for name, value in recipe.missing.items():

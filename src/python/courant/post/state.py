@@ -46,7 +46,7 @@ EVERYWHERE = Where("1", Formula("1", NAMES))
 
 
 def read_expression(keys: YamlMap, node: Node, key: str, names: tuple[str, ...] = NAMES) -> Formula:
-    """An expression over `names`; faults are told at the node."""
+    """An expression over `names`; faults are reported at the node."""
     if not is_scalar(node):
         keys.error(node, f"'{keys.name}.{key}' must be an expression")
         return Formula("0", names)

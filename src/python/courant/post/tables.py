@@ -25,7 +25,7 @@ class Scalar(NamedTuple):
 
 
 class Series(NamedTuple):
-    """Values over time that a spectrum or another analysis may take up. `x`: where, if it belongs to a place [L], else NaN."""
+    """Values over time that a spectrum or another analysis may take up. `x`: where, if it belongs to a location [L], else NaN."""
 
     name: str
     unit: str

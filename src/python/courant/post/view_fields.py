@@ -200,7 +200,7 @@ def outlines(faces: Faces, sharp: float = 30.0) -> np.ndarray:
     shown = count != 2
     pairs = np.flatnonzero(count == 2)
     a, b = normal[face[order[begin[pairs]]]], normal[face[order[begin[pairs] + 1]]]
-    shown[pairs] = np.abs((a * b).sum(axis=1)) < np.cos(np.radians(sharp))  # shells may be turned either way
+    shown[pairs] = np.abs((a * b).sum(axis=1)) < np.cos(np.radians(sharp))  # shells may be turned in either case
     return edges[shown]
 
 

@@ -54,7 +54,7 @@ class View:
     rate: float = key("positive", 12.0)
 
     def __post_init__(self) -> None:
-        """Raises ValueError where a word is none of those that there are; recipes have told before."""
+        """Raises ValueError where a word is none of those that there are; recipes have reported before."""
         words = {"of": OF, "walls": WALLS, "up": ("", *AXES), "projection": PROJECTIONS}
         for key, known in words.items():
             if getattr(self, key) not in known:

@@ -30,7 +30,7 @@ _DPI = 120
 
 
 def read_view(keys: YamlMap) -> View:
-    """One entry of `views`. Faults are told at their place."""
+    """One entry of `views`. Faults are reported at their location."""
     name, factor = keys.text("name"), keys.number("factor", 1.0)
     if not all(c.isalnum() or c in "-_" for c in name):
         keys.error(keys.get("name") or keys.node, f"'{keys.name}.name': '{name}' is no name of a file", "letters, digits, - and _")
@@ -65,7 +65,7 @@ def _read_mirror(keys: YamlMap) -> str:
 
 
 def read_views(keys: YamlMap, up: str) -> list[tuple[View, Location]]:
-    """`views` of a recipe, with their places. `up`: of the recipe, for views that do not tell; "" for that of gravity."""
+    """`views` of a recipe, with their locations. `up`: of the recipe, for views that do not tell; "" for that of gravity."""
     out: list[tuple[View, Location]] = []
     for number, node in enumerate(keys.list("views"), 1):
         entry = keys.element(node, f"view {number}")
@@ -84,7 +84,7 @@ def _time(scene: Scene, run: Any) -> str:
 
 
 def _spread(count: int, view: View, wide: float) -> tuple[int, int]:
-    """Rows and columns of panels; wide pictures (width over height) stand below each other."""
+    """Rows and columns of panels; wide pictures (width over height) are below each other."""
     columns = view.columns or (1 if wide > 2.2 else min(count, 2) if wide > 0.8 else min(count, 5))
     columns = min(columns, count)
     return math.ceil(count / columns), columns
@@ -165,7 +165,7 @@ def save_view(figure: Any, path: Path) -> None:
 
 
 def _of_times_that_are_there(view: View, where: Location, states: np.ndarray, diagnostics: Diagnostics) -> View:
-    """Without the times that no state is near to, which are told: a run that goes on has none yet."""
+    """Without the times that no state is near to, which are reported: a run that goes on has none yet."""
     if view.times is None:
         return view
     spacing = (states[-1] - states[0]) / max(1, len(states) - 1)
@@ -176,7 +176,7 @@ def _of_times_that_are_there(view: View, where: Location, states: np.ndarray, di
 
 
 def draw_views(run: Any, views: list[tuple[View, Location]], out: Path, diagnostics: Diagnostics) -> list[Path]:
-    """NAME.png of each view, and NAME.gif or NAME.mp4 where it is asked for. Faults of fields and files are told; raises MissingModule."""
+    """NAME.png of each view, and NAME.gif or NAME.mp4 where it is asked for. Faults of fields and files are reported; raises MissingModule."""
     from .animation import MissingProgram, animate
 
     made: list[Path] = []

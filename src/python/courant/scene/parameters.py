@@ -35,7 +35,7 @@ class ParameterReader(NodeReader):
         self.overrides = overrides
         self.folder = os.path.dirname(path)  # where paths of the scene begin
         self.bases: list[Base] = []
-        self.loading: list[str] = []  # the scene and the bases on the way to the file that is read
+        self.loading: list[str] = []  # the scene and the bases on the path to the file that is read
         self.parameters: list[tuple[str, float]] = []  # in the order of the file, after overrides
 
     def load(self, path: str) -> Node | None:

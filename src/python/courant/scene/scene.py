@@ -43,7 +43,7 @@ def _caller() -> Mark:
 
 
 def _node(value: Any, mark: Mark) -> Node:
-    """A value as it would stand in YAML."""
+    """A value as it would be in YAML."""
     if isinstance(value, yaml.Node):
         return value
     if isinstance(value, (bool, np.bool_)):
@@ -85,7 +85,7 @@ class Scene:
                  parameters: Mapping[str, Number] | None = None) -> None:
         """`spacing` of particles [L]; `end` of the run, `output`: interval of states [T]; of the water: `density` [M/L3], `sound_speed` [L/T], linear
         coefficient `viscosity` [-], `tension`: whether it may pull, `velocity` [L/T] and `pressure` [M/LT2] at the start, also by x, y, z;
-        `wall_method`: "mirrors", "contact", "ghosts" or "mixed", box and bodies as mirrors and other walls by contact; `explain` tells what is taken for what is left out."""
+        `wall_method`: "mirrors", "contact", "ghosts" or "mixed", box and bodies as mirrors and other walls by contact; `explain` states what is taken for what is left out."""
         mark = _caller()
         self._path, self._folder = mark.name, ""
         self._name, self._overrides, self._of_python = path.basename(mark.name), dict[str, str](), True

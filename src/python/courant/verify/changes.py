@@ -30,7 +30,7 @@ class Change:
 class Comparison:
     earlier: str = ""  # what it is compared with; blank: nothing
     lines: list[Change] = field(default_factory=list)
-    compared: int = 0  # rows that stand in both
+    compared: int = 0  # rows that are in both
     regressed: bool = False  # a check or verdict that was met is now missed
 
 

@@ -32,7 +32,7 @@ DARK = "@media screen and (prefers-color-scheme:dark){svg.chart{filter:invert(.9
 class Point:
     x: float
     y: float
-    hover: str = ""  # what is told when the point is pointed at
+    hover: str = ""  # what is reported when the point is pointed at
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Chart:
     x_label: str = ""
     y_label: str = ""
     logarithmic: bool = False
-    percent: bool = False  # y is a fraction that is told in per cent
+    percent: bool = False  # y is a fraction that is reported in per cent
     lines: list[Line] = field(default_factory=list)
     front: list[Point] = field(default_factory=list)  # drawn as a broad light line and rings below the lines
     levels: list[tuple[str, float]] = field(default_factory=list)  # name and y of horizontal dashed lines
@@ -111,7 +111,7 @@ def _limits(values: Sequence[float], logarithmic: bool) -> tuple[float, float]:
 
 
 class _Drawing(_Svg):
-    """A chart with its axes. Points without a place on them are not dropped: zero and negative values on a logarithmic axis stand at its beginning, infinite
+    """A chart with its axes. Points without a location on them are not dropped: zero and negative values on a logarithmic axis are at its beginning, infinite
     ones and what is not a number at its end, with their value."""
 
     def __init__(self, chart: Chart) -> None:
@@ -142,12 +142,12 @@ class _Drawing(_Svg):
             axis.set_major_formatter(ticker.FuncFormatter(lambda value, position, told=told: told(value)))
 
     def place(self, p: Point) -> tuple[float, float]:
-        """Where it is drawn: what has no place, at an end of the axis."""
+        """Where it is drawn: what has no location, at an end of the axis."""
         return tuple(v if self.has_place(v) else self.limits[axis][0 if v <= 0 else 1]  # type: ignore[return-value]
                      for axis, v in (("x", p.x), ("y", p.y)))
 
     def path(self, points: Sequence[Point]) -> tuple[list[float], list[float]]:
-        """Coordinates of those that have a place, NaN between them."""
+        """Coordinates of those that have a location, NaN between them."""
         kept = [(p.x, p.y) if self.has_place(p.x) and self.has_place(p.y) else (math.nan, math.nan) for p in points]
         return [x for x, _ in kept], [y for _, y in kept]
 
@@ -221,7 +221,7 @@ class Cell:
     hover: str = ""
 
     def show(self, run: RunResult) -> None:
-        """Of several runs with the same swept values, the worst one stands in the cell."""
+        """Of several runs with the same swept values, the worst one is in the cell."""
         parts = [f"{run.setting}: {run.verdict.name}" + ("" if run.as_required else ", which the suite does not allow"), *run.exceeded]
         parts += [f"{o.name} {number(o.value)}" for o in run.observed if o.value is not None]
         parts += [run.reason] if run.verdict != Verdict.stable and run.reason else []
@@ -233,7 +233,7 @@ class Cell:
 
 @dataclass
 class StabilityMap:
-    """Columns and rows as the suite has them; the longer sweep stands in rows where it would be too wide. No rows: one parameter."""
+    """Columns and rows as the suite has them; the longer sweep is in rows where it would be too wide. No rows: one parameter."""
 
     label: str
     column_name: str = ""

@@ -27,7 +27,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder for runs and results; SUITE_verify if not given")
     parser.add_argument("--jobs", metavar="N", type=count, default=0, help="runs at once; 0: one per core")
     parser.add_argument("--only", metavar="CASE[,CASE...]", action="append", default=[], help="these cases alone")
-    parser.add_argument("--compare", metavar="OLD.csv", type=Path, help="results.csv of an earlier call: tell what got worse")
+    parser.add_argument("--compare", metavar="OLD.csv", type=Path, help="results.csv of an earlier call: report what got worse")
     parser.add_argument("--page", metavar="FILE.md", type=Path, help="also write a Markdown page with its charts in a folder beside it")
     parser.add_argument("--fresh", action="store_true", help="take over no runs of an earlier call")
     parser.add_argument("--load", metavar="FILE.py", action="append", default=[], help="adds observations, charts, ... of your own")

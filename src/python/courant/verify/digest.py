@@ -36,7 +36,7 @@ def _read_blocks(text: str, given: Mapping[str, str], texts: dict[str, set[str]]
     names: set[str] = set()
     for keyword, block in _BLOCK.findall(text):
         lines = [line.rstrip() for line in block.split("\n") if line.strip() and line[0] != "$"]
-        if keyword.upper() == "INCLUDE":  # ' +' at the end of a line continues a name; it may stand in quotes
+        if keyword.upper() == "INCLUDE":  # ' +' at the end of a line continues a name; it may be in quotes
             names |= {line.strip().strip("\"'").strip() for line in re.sub(r" \+\s*\n\s*", "", "\n".join(lines)).split("\n")}
             continue
         for cells in (cells for line in lines for cells in (line.split(","), re.findall(".{1,10}", line), re.findall(".{1,20}", line))):

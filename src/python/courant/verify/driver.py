@@ -111,7 +111,7 @@ class Verification:
             said = subprocess.run([self.options.executable, "--version"], capture_output=True, text=True, timeout=60, check=False).stdout
         except (OSError, subprocess.TimeoutExpired):
             said = ""
-        words = said.split()
+        words = said.partition("\n")[0].split()  # the second line is how it was built
         return f"Courant {words[-1] if words else '?'} (build {self.build[:8]})"
 
     def scene_of(self, run: PlannedRun) -> str:

@@ -17,7 +17,7 @@ POINTS_OF_REPORT = 400
 
 
 class NotComparable(Exception):
-    """There is no error; the text tells why."""
+    """There is no error; the text states why."""
 
 
 def _constant(text: str, variables: Variables) -> float:
@@ -44,7 +44,7 @@ def scaled_table(reference: Reference, variables: Variables) -> Series:
 
 
 def merged(series: Series) -> Series:
-    """Points at the same place, as particles of a row have them, become their mean."""
+    """Points at the same location, as particles of a row have them, become their mean."""
     slack = 1e-6 * (series.x[-1] - series.x[0]) if len(series) > 1 else 0.0
     ends: list[int] = []
     at = 0
@@ -104,7 +104,7 @@ def _against_formula(o: Observation, m: Measured, variables: Variables, out: Obs
 
 
 def _against_curve(series: Series, reference: Series, out: Observed) -> tuple[np.ndarray, np.ndarray]:
-    """Values of the observation and of the reference at the places that both have."""
+    """Values of the observation and of the reference at the locations that both have."""
     values = reference.values_at(series.x)
     known = ~np.isnan(values)
     shown = reference.window(series.x[0], series.x[-1]).thinned(POINTS_OF_REPORT)

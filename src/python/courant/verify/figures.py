@@ -74,7 +74,7 @@ def error_figure(case: CaseResult, k: int) -> Figure | None:
 
 
 def _line(figure: Figure, name: str, x: np.ndarray, y: np.ndarray, style: str) -> Line:
-    """The line of a curve; what is not finite in it is told."""
+    """The line of a curve; what is not finite in it is reported."""
     gaps = int(np.count_nonzero(~(np.isfinite(x) & np.isfinite(y))))
     if gaps:
         figure.notes.append(f"{name}: {gaps} of {len(x)} values are not finite numbers and are left out.")

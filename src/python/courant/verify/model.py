@@ -163,7 +163,7 @@ class Curve:
 
 @dataclass
 class Observed:
-    """An observation with its error, divided by its scale [-]; `why` tells why something is missing."""
+    """An observation with its error, divided by its scale [-]; `why` states why something is missing."""
 
     name: str = ""
     found: bool = False

@@ -49,7 +49,7 @@ class Measured:
 
 
 class NotFound(Exception):
-    """A run has nothing of the kind; the text tells why."""
+    """A run has nothing of the kind; the text states why."""
 
 
 @dataclass
@@ -244,7 +244,7 @@ def _attempt(step: Callable[[], int | Measured | Looking]) -> int | Measured | L
 
 @dataclass
 class _Task:
-    """An observation on its way through the states: `next` is the state that it waits for."""
+    """An observation on its path through the states: `next` is the state that it waits for."""
 
     result: Measured = field(default_factory=Measured)
     looking: Looking | None = None

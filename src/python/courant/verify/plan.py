@@ -27,7 +27,7 @@ class PlannedRun:
     folder: Path = Path()  # relative to the folder of results
     variables: Variables = field(default_factory=dict)  # values of all parameters that expressions may name
     size: float = 0.0  # of Case.size; 0: none
-    generated: Path | None = None  # the deck made from a scene, not yet in its place
+    generated: Path | None = None  # the deck made from a scene, not yet instead
     deck: Path = Path()  # that is run
     key: str = ""  # of all that the results follow from
     cost: float = 0.0  # in proportion to the time that it is expected to take

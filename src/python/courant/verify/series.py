@@ -12,7 +12,7 @@ FEWEST_OF_PERIOD = 8  # samples
 
 
 class NoValue(Exception):
-    """There is no number; the text tells why."""
+    """There is no number; the text states why."""
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Series:
         return Series(self.x[chosen], self.y[chosen])
 
     def values_at(self, x: np.ndarray) -> np.ndarray:
-        """y at x by linear interpolation; NaN outside the range. A place beyond an end by 1e-6 of the range is that end. Shape of x."""
+        """y at x by linear interpolation; NaN outside the range. A location beyond an end by 1e-6 of the range is that end. Shape of x."""
         if len(self) == 0:
             return np.full(np.shape(x), np.nan)
         slack = 1e-6 * (self.x[-1] - self.x[0])

@@ -1,4 +1,4 @@
-"""Reads and checks a suite; all faults are told at once, each with its line."""
+"""Reads and checks a suite; all faults are reported at once, each with its line."""
 from __future__ import annotations
 
 import os
@@ -62,7 +62,7 @@ def _texts(map_: YamlMap, key: str) -> list[str]:
 
 
 def _at(map_: YamlMap, key: str) -> Node:
-    """Where a fault of a key is told."""
+    """Where a fault of a key is reported."""
     return map_.get(key) or map_.node
 
 

@@ -25,7 +25,7 @@ class CheckedExpression(NamedTuple):
 
 
 def check_observation(map_: YamlMap, o: Observation) -> None:
-    """Whether the keys of an observation fit each other; faults are told at the map."""
+    """Whether the keys of an observation fit each other; faults are reported at the map."""
     own, profile, taken, has = o.kind not in ("history", "particles", "profile", "surface"), o.is_profile, o.take, map_.has
     surface = o.kind == "surface"
     rules = [(o.kind == "history" and has("where"), "where", "'where' belongs to particles and profiles"),
@@ -105,7 +105,7 @@ def check_case(map_: YamlMap, case: Case, expressions: list[CheckedExpression], 
     overrides = overrides_of(case, first, (first.resolutions or case.resolutions or [""])[0])
     overrides |= {name: values[0] for name, values in case.stability.sweep} if case.stability else {}
     parameters = parameter_values(case, overrides)
-    for expression in expressions if parameters is not None else ():  # else the plan of the runs tells what is wrong
+    for expression in expressions if parameters is not None else ():  # else the plan of the runs states what is wrong
         _check_expression(expression, case, parameters or {}, diagnostics)
 
 

@@ -86,7 +86,7 @@ def paragraphs(text: str) -> list[str]:
 
 
 def links(text: str) -> list[tuple[str, str]]:
-    """Pieces of a text with links to pages and places of pages, `[words](page.md#place)`: words, and the target; blank where there is none."""
+    """Pieces of a text with links to pages and locations of pages, `[words](page.md#place)`: words, and the target; blank where there is none."""
     pieces = re.split(r"\[([^\[\]\n]+)\]\(([\w./-]*(?:#[\w-]+)?)\)", text)
     found = [(words, "") for words in pieces[::3]]
     return [one for k, words in enumerate(found) for one in (words, (pieces[3 * k + 1], pieces[3 * k + 2]) if 3 * k + 1 < len(pieces) else ("", "")) if one[0]]
@@ -98,7 +98,7 @@ def plain(text: str) -> str:
 
 
 def escape_xml(text: str) -> str:
-    """Text that may stand between the tags and in the attributes of HTML and SVG."""
+    """Text that may be between the tags and in the attributes of HTML and SVG."""
     return html.escape(plain(text))
 
 

@@ -119,7 +119,7 @@ void WallImages::look(World& world) {
   });
 }
 
-/// A closed room, an edge and nothing else, or a room some ways leave.
+/// A closed room, an edge and nothing else, or a sub-domain some ways leave.
 void WallImages::find_room(const Particles& p, Index i) {
   const auto k = static_cast<std::size_t>(i);
   const WallOutlooks& outlooks = *support_->outlooks();
@@ -200,7 +200,7 @@ void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   for (const WallPath& path : block.paths) drag(world.particles, path, block);
 }
 
-/// Where particle i stands in the middle of the step; beside walls that move once these are placed there.
+/// Where particle i is in the middle of the step; beside walls that move once these are placed there.
 WallImages::Outlook& WallImages::outlook(const Particles& p, Index i, Block& block) const {
   block.outlooks.resize(Neighbours::lanes);
   Outlook& out = block.outlooks[static_cast<std::size_t>(i % Neighbours::lanes)];
@@ -301,7 +301,7 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
     edge_sum_[path.weight > 0 ? 0 : 1][static_cast<std::size_t>(path.i)] += V * W * path.by_i.norm();
 }
 
-/// Those of pairs of which particle i stands in a room that one of its ways may leave.
+/// Those of pairs of which particle i is in a sub-domain that one of its ways may leave.
 void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
   const Index* const list = neighbours_->list(begin / block_size);
   const Index* const start = neighbours_->starts(begin / block_size);
@@ -386,7 +386,7 @@ void WallImages::forces(World& world, Index begin, Index end) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],
                W = kept(path) * V[j] * kernel(p.h[i], path.d);
-    // the way to oneself stands for the way back, too, which in a corner is another
+    // the path to oneself represents the path back, too, which in a corner is another
     const Vec d = path.moves && i == j ? Vec(0.5 * (path.d - path.turn.transpose() * path.d)) : path.d;
     const Vec force = -V[i] * pressure * (share * d + W * path.by_i);
     p.f.add(i, force);
@@ -402,7 +402,7 @@ void WallImages::forces(World& world, Index begin, Index end) {
   }
 }
 
-/// What walls that move get of a way, half of it here and half by the way back: by the force on particle i
+/// What walls that move get of a path, half of it here and half by the way back: by the force on particle i
 /// along it, and by how its share goes over, to which the force on particle i is `per_share`.
 void WallImages::react(const Particles& p, const WallPath& path, const Vec& force, Real per_share,
                        Block& block) const {
@@ -430,7 +430,7 @@ void WallImages::give(const WallPull& pull, Real times, Block& block) const {
 }
 
 void WallImages::weigh_edges(World& world) {
-  constexpr Real dry = 0.06, wet = 0.16, enough = 0.015;  // docs/theory.md, METHOD 1
+  constexpr Real dry = 0.06, wet = 0.16, enough = 0.015;  // docs/theory_walls.md, METHOD 1
   for_each(world.particles.active, [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     const Real thrown_back = edge_sum_[0][k], seen = edge_sum_[1][k];

@@ -15,22 +15,22 @@
 namespace courant {
 
 /// Sums over the images of particles in the walls (`WallPaths`), and what walls hide taken off plain sums;
-/// j stands for an image, w for the share of its way:
+/// j represents an image, w for the share of its path:
 ///   d rho_i/dt += rho_i sum w V_j (v_i - v_j) . grad W_ij,
 ///   f_i -= V_i sum w V_j (p_i + p_j) grad W_ij,
-/// the second what belongs to the first, so that energy is kept; and since the way back is the same, forces
+/// the second what belongs to the first, so that energy is kept; and since the path back is the same, forces
 /// along a plane wall cancel between particles. The diffusion of density sees images, too, with the pressure
-/// that stands behind the wall at rest. Viscosity does where all walls of a way hold water fast (LAW 2), each
+/// that is behind the wall at rest. Viscosity does where all walls of a way hold water fast (LAW 2), each
 /// of which turns velocities round about its own, v_j -> 2 w - v_j:
 ///   f_i += V_i sum w V_j (mu_i + mu_j)(v_i - v_j) (dW/dr)/r,
-/// and what walls hide of it is taken off. A wall gets, of a way and of the way back half, 2 f_i, with the
+/// and what walls hide of it is taken off. A wall gets, of a way and of the path back half, 2 f_i, with the
 /// sign turned at each further wall: all that particles lose, and what it does to them is its work.
 ///
 /// Where walls move as rigid bodies, v_j is that of the image, which goes along with the wall, and walls get
 /// what particles lose by what each way changes with them (`WallPull`), on the nodes of the face that it goes
 /// through: forces keep momentum and its moment, and what walls do to the water they lose.
 ///
-/// Where a wall ends, w changes with the places of i and j, and belongs to both sums:
+/// Where a wall ends, w changes with the positions of i and j, and belongs to both sums:
 ///   d rho_i/dt += rho_i sum V_j W_ij dw/dt,   f_i -= V_i sum V_j (p_i + p_j) W_ij dw/dx_i,
 /// so that density depends on where particles are, not on how they came there, and forces keep their energy.
 class WallImages : public Rate, public Refresh, public EnergyTerm, public Restartable {
@@ -44,7 +44,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void refreshed(World& world, const Clock&, std::span<const Index>) override;
   void keep(Archive& archive) override;
   void relist(World& world) override;
-  /// Work of belts.
+  /// Work of moving surfaces.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
@@ -84,7 +84,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
     std::vector<WallPull> now;      ///< of the path at hand
     WallPaths::Sheets in_middle;    ///< of the particle at hand, where walls are in the middle of the step
     std::vector<Reaction> reactions;
-    Real belt_power = 0;       ///< of belts on water [ML2/T3]
+    Real belt_power = 0;       ///< of moving surfaces on water [ML2/T3]
     std::vector<Index> doubt;  ///< WallMirrorArrays
     std::vector<unsigned char> doubt_lanes;
     Index doubts = 0;
@@ -165,7 +165,7 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   WallMirrorLoop room_rates_, room_forces_, edge_rates_, edge_forces_;
   std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then
   std::vector<std::unique_ptr<WallRoom>> own_rooms_;
-  std::vector<const WallEdge*> edges_;  ///< of those that stand beside one and have no closed room
+  std::vector<const WallEdge*> edges_;  ///< of those that are beside one and have no closed room
   std::vector<std::optional<WallEdge>> own_edges_;
   std::vector<std::optional<WallPaths::LoneEdge>> moving_edges_;  ///< where walls move: those that do
   std::vector<char> strange_;                                     ///< WallMirrorArrays

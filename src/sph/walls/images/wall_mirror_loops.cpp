@@ -107,7 +107,7 @@ struct EightRooms {
   }
 };
 
-/// Calls f(S, shape) for each set S of walls, a number of bits, behind which j stands within reach.
+/// Calls f(S, shape) for each set S of walls, a number of bits, behind which j is within reach.
 template <int Walls, class Kernel, class F>
 COURANT_INLINE void for_each_image(const Kernel& kernel, const Pack& r2, const Pack (&farther)[Walls],
                                    const Pack& reach2, Real hinv, const F& f) {

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over the images of particles in rooms (see WallRoom); compiled once for each instruction set, as
+// Sums over the images of particles in sub-domains (see WallRoom); compiled once for each instruction set, as
 // pair_loops.hpp.
 #include <cstdint>
 
@@ -23,28 +23,28 @@ struct WallMirrorArrays {
   const Real* potential;  ///< -g.x [L2/T2]
   Real* diffusion;        ///< rate of rho by diffusion [M/L3T]; null: none
   Real h, delta;
-  Real half_step;         ///< rates are those of places half a step ago [T]
-  Real aside[3];          ///< so far aside of their places particles are looked at [L]
+  Real half_step;         ///< rates are those of positions half a step ago [T]
+  Real aside[3];          ///< so far aside of their positions particles are looked at [L]
   Real width;             ///< of edges [L]
   const Real* edge_loss;  ///< sph_fields::edge_loss
   /// Of each particle beside an edge, added: sums of V W and the slope of the share over ways that walls
   /// throw back, and over straight ones to the other side of a wall's plane [1/L]
   Real* edge_sum[2];
   const WallRoom* const* room;  ///< of each particle; null: none
-  const WallEdge* const* edge;  ///< the same, of those that have no room
-  /// Of each particle of the lists that stands beside an edge that moves; null: none does.
+  const WallEdge* const* edge;  ///< the same, of those that have no space
+  /// Of each particle of the lists that is beside an edge that moves; null: none does.
   WallEdgePull* pull;
   /// Of each entry of the lists, four bits for each of eight i beside such an edge: whether a way passes the
   /// edge near by in the middle of the step, where forces look at all ways at its end; if not, which ways
   /// there are, by the first wall, by the second one, and one that is hidden. Rates set them, forces read
   /// them.
   std::uint32_t* ways;
-  /// Of each particle: 1 where it is not in its room or beside its edge, so that nothing is added here. Rates
-  /// set it, forces read it.
+  /// Of each particle: 1 where it is not in its sub-domain or beside its edge, so that nothing is added here.
+  /// Rates set it, forces read it.
   char* strange;
-  /// Pairs that may see each other by other ways than those of the room, of which nothing is added here:
-  /// entries of the lists, ascending, and by bits which of the eight i. Rates set them, forces read them;
-  /// there is room for all entries.
+  /// Pairs that may see each other by other ways than those of the sub-domain, of which nothing is added
+  /// here: entries of the lists, ascending, and by bits which of the eight i. Rates set them, forces read
+  /// them; there is space for all entries.
   Index* doubt;
   unsigned char* doubt_lanes;
   Index* doubts;            ///< how many
@@ -53,7 +53,7 @@ struct WallMirrorArrays {
 
 using WallMirrorLoop = void (*)(const WallMirrorArrays&, const NeighbourLists&);
 
-/// drhodt_i += rho_i sum V_j (v_i - v_j') . grad W, over all images j' in the walls of the room of i.
+/// drhodt_i += rho_i sum V_j (v_i - v_j') . grad W, over all images j' in the walls of the sub-domain of i.
 WallMirrorLoop mirror_rates_loop(KernelChoice kernel, int dim);
 /// f_i -= V_i sum V_j (p_i + p_j) grad W, and the diffusion of density as in forces_loop, whose pressure
 /// behind a wall is that of rest.

@@ -13,9 +13,9 @@ namespace {
 constexpr Real level = 1 - 1e-6;  ///< cosine of the angle between normals of faces in one plane
 constexpr Real bent = 0.87;       ///< cosine of the turn up to which one face goes on in the next
 
-/// No way goes exactly through an edge, or between particles and faces that stand on one lattice, when all
-/// particles are looked at a little aside of their places, which does not matter otherwise; at the other end
-/// of its way, a particle that sees itself elsewhere again: in a corner that way always goes through the
+/// No way goes exactly through an edge, or between particles and faces that are on one lattice, when all
+/// particles are looked at a little aside of their positions, which does not matter otherwise; at the other
+/// end of its path, a particle that sees itself elsewhere again: in a corner that way always goes through the
 /// edge. [L]
 Vec aside(Real reach, int dim, bool again) {
   return 1e-5 * reach *
@@ -188,7 +188,7 @@ WallPaths::Brink WallPaths::now(const Brink& edge) const {
   return out;
 }
 
-/// What no way by several of the sheets can do, however they move as one.
+/// What no path by several of the sheets can do, however they move as one.
 void WallPaths::compare(Sheets& sheets) const {
   const auto for_each_corner = [&](const Sheet& s, const auto& f) {
     for (const Index face : s.faces)

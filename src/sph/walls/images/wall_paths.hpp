@@ -16,27 +16,28 @@ namespace courant {
 /// How particle j acts on particle i because of walls.
 struct WallPath {
   Index i = 0, j = 0;
-  /// Share of the way that walls throw back; of a straight way, less than 0: what they hide of it. [-]
+  /// Share of the way that walls throw back; of a straight path, less than 0: what they hide of it. [-]
   Real weight = 0;
-  Vec d = Vec::Zero();                         ///< x_i less the place of the image of j [L]
-  Matrix turn = Matrix::Identity();            ///< of directions at j, as they are at the image
-  Vec by_i = Vec::Zero(), by_j = Vec::Zero();  ///< how the share goes over with the places of i and j [1/L]
-  Vec drift = Vec::Zero();                     ///< velocity of the image where j rests [L/T]
+  Vec d = Vec::Zero();               ///< x_i less the position of the image of j [L]
+  Matrix turn = Matrix::Identity();  ///< of directions at j, as they are at the image
+  Vec by_i = Vec::Zero(),
+      by_j = Vec::Zero();   ///< how the share goes over with the positions of i and j [1/L]
+  Vec drift = Vec::Zero();  ///< velocity of the image where j rests [L/T]
   std::array<signed char, 4> by{-1, -1, -1, -1};  ///< the sheets that throw it back, in turn
   bool moves = false;                             ///< any of them does
-  bool across = false;  ///< of a straight way: its ends are on different sides of the plane of a wall
-  Index pulls = 0, pulls_end = 0;  ///< how the share goes over with the places of walls
+  bool across = false;  ///< of a straight path: its ends are on different sides of the plane of a wall
+  Index pulls = 0, pulls_end = 0;  ///< how the share goes over with the positions of walls
 };
 
-/// How something changes with the place of a rigid piece of wall: by `force` times the way of what moves with
-/// it at `at`, and along the normal of the face by the difference of the ways at `at + lever` and `at`. With
-/// the sign turned, the force on it that belongs to an energy. [X/L], `lever` times that
+/// How something changes with the position of a rigid piece of wall: by `force` times the path of what moves
+/// with it at `at`, and along the normal of the face by the difference of the ways at `at + lever` and `at`.
+/// With the sign turned, the force on it that belongs to an energy. [X/L], `lever` times that
 struct WallPull {
   Index face = 0;
   Vec at = Vec::Zero(), force = Vec::Zero(), lever = Vec::Zero();
 };
 
-/// A room for who does not see these edges, where something ends in front of its walls.
+/// A sub-domain for who does not see these edges, where something ends in front of its walls.
 struct OpenRoom {
   WallRoom room;                          ///< without ends
   WallRoom open;                          ///< with these
@@ -49,18 +50,18 @@ struct OpenRoom {
 };
 
 /// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
-/// way from i to the image goes through that wall, and so does j, since the way back is the same. Images of
-/// images fill corners, again where the way, thrown back by one wall after the other, meets each of them.
-/// Particles that a wall stands between do not meet. So whatever direction i looks in, it sees water just as
+/// way from i to the image goes through that wall, and so does j, since the path back is the same. Images of
+/// images fill corners, again where the path, thrown back by one wall after the other, meets each of them.
+/// Particles that a wall is between do not meet. So whatever direction i looks in, it sees water just as
 /// far as its kernel reaches, at any number of walls, at their ends and on both sides of them.
 ///
 /// Where a wall ends, and where the next one turns away from the water, a way that passes the edge goes over
 /// from thrown back (or hidden) to nothing within one width, half of it on each side, smoothly: else
 /// particles would come and go at once. What the wall no longer throws back is what it no longer hides.
 ///
-/// Walls may move as rigid bodies: `take_along` tells where they are, and `place` brings sheets there. How a
-/// way changes with places then holds for those of walls, too (`WallPull`), such that nothing changes where
-/// all goes along alike: forces by it keep momentum and its moment.
+/// Walls may move as rigid bodies: `take_along` states where they are, and `place` brings sheets there. How a
+/// way changes with positions then holds for those of walls, too (`WallPull`), such that nothing changes
+/// where all goes along alike: forces by it keep momentum and its moment.
 class WallPaths {
  public:
   /// Along the axes.
@@ -103,7 +104,7 @@ class WallPaths {
     bool turns_away(std::size_t other, Real from) const {
       return other < 64 && (((from > 0 ? under : over) >> other) & 1) != 0;
     }
-    /// What a way from x to it is no shorter than; from it to another one. [L]
+    /// What a path from x to it is no shorter than; from it to another one. [L]
     Real off(const Vec& x) const {
       return std::max(std::abs(height(x)), (low - x).cwiseMax(x - high).cwiseMax(0).norm());
     }
@@ -125,20 +126,20 @@ class WallPaths {
   WallPaths& operator=(const WallPaths&) = delete;
   ~WallPaths() = default;
 
-  /// How far x is from the way from a to b.
+  /// How far x is from the path from a to b.
   static Real distance_to(const Vec& x, const Vec& a, const Vec& b);
   /// What may throw back ways from about x.
   Sheets seen_from(const Vec& x) const;
-  /// All that stands within a distance of x [L], each with its faces and edges.
+  /// All that is within a distance of x [L], each with its faces and edges.
   Sheets sheets_around(const Vec& x, Real within) const;
-  /// The rooms that places may stand in that are no farther than `half` from the centre, as far as `reach`
+  /// The rooms that places may be in that are no farther than `half` from the centre, as far as `reach`
   /// from them, of the sheets that stand that far around. [L]
   std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
-  /// Of these, the room whose walls end nowhere in sight, or the one whose walls do, but not within half of
-  /// the width of x; null: none.
+  /// Of these, the sub-domain whose walls end nowhere in sight, or the one whose walls do, but not within
+  /// half of the width of x; null: none.
   std::unique_ptr<WallRoom> closed_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
   std::unique_ptr<WallRoom> open_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  /// The edge that is all that stands within `sight` and half of the width about x; none: there is more. [L]
+  /// The edge that is all that is within `sight` and half of the width about x; none: there is more. [L]
   std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// An edge of a body that moves, by numbers of its sheets, and of their edges.
   struct LoneEdge {
@@ -150,7 +151,7 @@ class WallPaths {
   /// The same of a body that moves, and where such an edge is and how it goes now.
   std::optional<LoneEdge> moving_edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
   WallEdge placed(const LoneEdge& edge, const Sheets& sheets) const;
-  /// A face of the sheet that is all that stands within `sight` and half of the width about x, without an
+  /// A face of the sheet that is all that is within `sight` and half of the width about x, without an
   /// edge there, if it moves; else -1. [L]
   Index moving_flat_about(const Sheets& sheets, const Vec& x, Real sight) const;
   /// Sheets by their numbers, one bit each; those behind the first 63 have the last one.
@@ -159,9 +160,9 @@ class WallPaths {
   static bool has(Some some, std::size_t k) { return (some & bit(k)) != 0; }
   class Standpoint;
   /// Looks from x, as far as the kernel reaches, at sheets, which must stay where they are as long as
-  /// somebody stands there [L].
+  /// somebody is there [L].
   void stand(const Sheets& sheets, const Vec& x, Real reach, Standpoint& to) const;
-  /// Appends the ways from particle i, that stands there, to j at y, that walls change.
+  /// Appends the paths from particle i, that is there, to j at y, that walls change.
   void add(Standpoint& from, Index i, Index j, const Vec& y, std::vector<WallPath>& to,
            std::vector<WallPull>* pulls = nullptr) const;
   /// The same for one pair.
@@ -199,7 +200,7 @@ class WallPaths {
                    std::vector<WallPull>& to) const;
 
  private:
-  /// Where another face begins at an edge: the edge is none to who stands between both.
+  /// Where another face begins at an edge: the edge is none to who is between both.
   struct Corner {
     Vec n = Vec::Zero();  ///< of the other face
     Real here = 0;        ///< side of the other face on which this one lies
@@ -228,7 +229,7 @@ class WallPaths {
   /// How a way went, for whom its share depends on.
   struct Way {
     std::array<const Sheet*, 4> by;
-    std::array<Vec, 4> start, target;  ///< before each wall turns the way back
+    std::array<Vec, 4> start, target;  ///< before each wall turns the path back
     std::array<Meeting, 4> met;        ///< with that wall
     std::array<Meeting, 5> hidden;     ///< before each wall, and at the end
     Vec end;
@@ -239,7 +240,7 @@ class WallPaths {
       by[steps] = &sheet, start[steps] = from, target[steps] = to, met[steps++] = m;
     }
   };
-  /// Sheets that throw a way back, in turn.
+  /// Sheets that throw a path back, in turn.
   class Sequence {
    public:
     bool empty() const { return size_ == 0; }
@@ -256,7 +257,7 @@ class WallPaths {
     std::array<const Sheet*, 4> sheets_{};
     std::size_t size_ = 0;
   };
-  /// Walls that may throw a way back in turn, as far as that depends on where it starts.
+  /// Walls that may throw a path back in turn, as far as that depends on where it starts.
   struct Route {
     Sequence by;
     Some walls = 0;                    ///< the same
@@ -298,7 +299,7 @@ class WallPaths {
   bool is_inside(const Sheet& sheet, const Vec& q) const;
   bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;
   bool turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const;
-  /// About a way, with what may pass edges there.
+  /// About a path, with what may pass edges there.
   Box box_about(const Vec& a, const Vec& b) const {
     const Vec near = Vec::Constant(std::max(0.5 * width_, 2 * overlap * surface_.reach()));
     return {a.cwiseMin(b) - near, a.cwiseMax(b) + near};
@@ -332,7 +333,7 @@ class WallPaths {
   }
 
   static constexpr Real touching = 1e-3;  ///< of the reach: what is nearer is joined, as decks round places
-  static constexpr Real upright = 1e-6;   ///< cosine of the angle between walls of a room
+  static constexpr Real upright = 1e-6;   ///< cosine of the angle between walls of a sub-domain
   static constexpr Real overlap = 1e-4;   ///< of the reach: so far faces go on past their edges
 
   const WallSurface& surface_;

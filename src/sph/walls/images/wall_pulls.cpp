@@ -84,7 +84,7 @@ Index WallPaths::face_at(const Sheet& sheet, const Vec& q) const {
   return best;
 }
 
-/// What changes by `by_image` times the way of the image of `at` changes with the wall by that, and by what
+/// What changes by `by_image` times the path of the image of `at` changes with the wall by that, and by what
 /// is thrown back of it at `at` itself. Both together are a force along the normal, where the way goes
 /// through the wall.
 void WallPaths::pull(const Sheet& sheet, const Vec& at, const Vec& by_image,
@@ -121,7 +121,7 @@ void WallPaths::pull_target(const Way& way, int k, Vec by, std::vector<WallPull>
   }
 }
 
-/// `by` belongs to where wall k is hit; -1 and the number of walls are the ends of the way.
+/// `by` belongs to where wall k is hit; -1 and the number of walls are the ends of the path.
 void WallPaths::pull_hit(const Way& way, int k, const Vec& by, std::vector<WallPull>& to) const {
   if (k < 0 || k == way.steps || by.isZero()) return;
   const Sheet& s = *way.by[k];

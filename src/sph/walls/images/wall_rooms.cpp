@@ -11,7 +11,7 @@ namespace courant {
 
 namespace {
 
-/// Notes that a wall of a room ends at a line through `at`, if there is room for it.
+/// Notes that a wall of a sub-domain ends at a line through `at`, if there is space for it.
 bool add_end(WallRoom& room, int wall, const Vec& out, const Vec& at) {
   const Real limit = out.dot(at);
   for (int e = 0; e < room.ends; ++e) {
@@ -36,7 +36,7 @@ Real WallPaths::distance_to(const Vec& x, const Vec& a, const Vec& b) {
   return (x - a - s * along).norm();
 }
 
-/// Walls of which some are those of a room, each seen from one side.
+/// Walls of which some are those of a sub-domain, each seen from one side.
 struct WallPaths::Walls {
   std::vector<const Sheet*> walls;
   std::vector<Real> side;
@@ -128,7 +128,7 @@ std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at
     else if (std::abs(s.height(centre)) >= reach + half)
       near.far.push_back(&s);
   }
-  std::vector<std::size_t> either;  // those that the places about the centre are on both sides of
+  std::vector<std::size_t> either;  // those that the positions about the centre are on both sides of
   for (std::size_t k = 0; k < near.walls.size(); ++k) {
     const Real height = near.walls[k]->height(centre);
     near.side.push_back(height > 0 ? 1 : -1);
@@ -178,7 +178,7 @@ WallOutlooks::WallOutlooks(const WallSurface& surface, Real width, Real cell, Re
       cells_(cell),
       alike_(std::move(alike)) {}
 
-/// What a place in a cell is farthest from its middle. [L]
+/// What a position in a cell is farthest from its middle. [L]
 Real WallOutlooks::half_of(Real cell, int dim) {
   return 0.5 * std::sqrt(Real(dim)) * cell;
 }

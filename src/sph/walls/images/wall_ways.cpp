@@ -9,10 +9,10 @@ namespace courant {
 
 namespace {
 
-constexpr Real most_passed = 2;  ///< widths by which a way may pass edges, with room to spare
+constexpr Real most_passed = 2;  ///< widths by which a way may pass edges, with space to spare
 
-/// The places where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1. Of
-/// two that are level, the middle of where they are side by side, as seen from both ends alike.
+/// The positions where two pieces of lines come nearest, and how far on the first one that is, from 0 to 1.
+/// Of two that are level, the middle of where they are side by side, as seen from both ends alike.
 struct Nearest {
   Vec here, there;
   Real part = 0;
@@ -48,7 +48,7 @@ bool WallPaths::turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, 
   });
 }
 
-/// How much of a way from `a` to `b`, which began at `start`, the sheet takes: where it passes an edge that
+/// How much of a path from `a` to `b`, which began at `start`, the sheet takes: where it passes an edge that
 /// nothing else closes for particles at x and y, it goes over from all to nothing within the width, as the
 /// way passes before the edge or behind it. So the faces on both sides of a corner, and the way past it,
 /// share all ways alike.
@@ -94,7 +94,7 @@ WallPaths::Meeting WallPaths::meet(const Sheet& sheet, const Box& about, const V
   return out;
 }
 
-/// What hides most of a way from `a` to `b`, of walls that may matter to it.
+/// What hides most of a path from `a` to `b`, of walls that may matter to it.
 WallPaths::Meeting WallPaths::hidden(const Pair& pair, const Vec& a, const Vec& b, const Sheet* but,
                                      const Sheet* and_but) const {
   const Sheets& sheets = *pair.from.sheets_;
@@ -160,7 +160,7 @@ void WallPaths::find_routes(Standpoint& from, Sequence& by, const Vec& there, Re
   }
 }
 
-/// Whether a way by several walls may end at y: it meets them all, and is no shorter than what its ends are
+/// Whether a path by several walls may end at y: it meets them all, and is no shorter than what its ends are
 /// off the first and the last one.
 bool WallPaths::may_end(const Standpoint& from, const Route& route, const Vec& y) const {
   constexpr Real rounded = 1 + 1e-9;
@@ -238,7 +238,7 @@ void WallPaths::add_path(const Pair& pair, const Route& route) const {
   pair.to.push_back(path);
 }
 
-/// Which walls throw a way back, and how they take the image of y along.
+/// Which walls throw a path back, and how they take the image of y along.
 void WallPaths::note_walls(const Sheets& sheets, const Sequence& by, Vec y, WallPath& path) const {
   for (std::size_t k = 0; k < by.size(); ++k) {
     path.by[k] = static_cast<signed char>(by[k] - sheets.data());
@@ -248,7 +248,7 @@ void WallPaths::note_walls(const Sheets& sheets, const Sequence& by, Vec y, Wall
   for (std::size_t k = by.size(); k-- > 0;) y = image(*by[k], y, path.drift);
 }
 
-/// Follows the way from x towards the image of y behind the walls `by`, each of which turns it back; returns
+/// Follows the path from x towards the image of y behind the walls `by`, each of which turns it back; returns
 /// its share: a product of what walls take and of what none of the others hides.
 Real WallPaths::follow(const Pair& pair, const Sequence& by, Vec target, Way& way) const {
   const Vec &x = pair.from.x_, &y = pair.y;
@@ -278,7 +278,7 @@ Real WallPaths::follow(const Pair& pair, const Sequence& by, Vec target, Way& wa
   return times(1 - h.share, h) ? share : 0;
 }
 
-/// How the share of a way goes over with the places of its ends and of walls.
+/// How the share of a way goes over with the positions of its ends and of walls.
 void WallPaths::find_slopes(const Way& way, WallPath& path, std::vector<WallPull>* pulls) const {
   // what start, target and hits change by when x and y do
   Matrix start_by_x = Matrix::Identity(), target_by_y = path.turn, at_by_x = start_by_x,

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Draws the rooms of src/ and how their #include lines point, as docs/architecture.md shows them.
+"""Draws the folders of src/ and how their #include lines point, as docs/architecture.md shows them.
 
-usage: rooms_figure.py PROJECT_FOLDER OUT.svg [--at COMMIT]
-A room stands above all that it includes. Arrows that follow from others are left out (a -> c where a -> b -> c), and those of app,
-which includes everything. Blue rooms are physics. Boxes give files and hundreds of lines. The same sources give the same bytes.
+usage: folders_figure.py PROJECT_FOLDER OUT.svg [--at COMMIT]
+A folder is above all that it includes. Arrows that follow from others are left out (a -> c where a -> b -> c), and those of app,
+which includes everything. Blue folders are physics. Boxes give files and hundreds of lines. The same sources give the same bytes.
 """
 import collections
 import io
@@ -28,33 +28,33 @@ def sources(project, commit):
                 for m in sorted(files.getmembers(), key=lambda m: m.name) if m.name.endswith((".cpp", ".hpp"))]
 
 
-def rooms_of(files):
-    """Files and lines of each room, and the rooms that each includes."""
+def folders_of(files):
+    """Files and lines of each folder, and the folders that each includes."""
     size, below = collections.defaultdict(lambda: [0, 0]), collections.defaultdict(set)
     for name, text in files:
-        room = name.parts[0]
-        size[room][0] += 1
-        size[room][1] += text.count("\n")
-        below[room] |= set(re.findall(r'^\s*#\s*include\s*"(\w+)/', text, re.M)) - {room}
-    return dict(size), {room: sorted(below[room]) for room in sorted(size)}
+        folder = name.parts[0]
+        size[folder][0] += 1
+        size[folder][1] += text.count("\n")
+        below[folder] |= set(re.findall(r'^\s*#\s*include\s*"(\w+)/', text, re.M)) - {folder}
+    return dict(size), {folder: sorted(below[folder]) for folder in sorted(size)}
 
 
-def reach(below, room):
-    return {room}.union(*(reach(below, b) for b in below[room]))
+def reach(below, folder):
+    return {folder}.union(*(reach(below, b) for b in below[folder]))
 
 
 def layered(below):
-    """Layers from the bottom up; an arrow over several layers has a place of its own in each (a tuple), so that it meets no box."""
+    """Layers from the bottom up; an arrow over several layers has a position of its own in each (a tuple), so that it meets no box."""
     direct = {r: [b for b in below[r] if not any(b in reach(below, o) for o in below[r] if o != b)] for r in below if r != TOP}
     level = {}
-    for room in sorted(direct, key=lambda r: (len(reach(below, r)), r)):
-        level[room] = 1 + max((level[b] for b in direct[room]), default=-1)
+    for folder in sorted(direct, key=lambda r: (len(reach(below, r)), r)):
+        level[folder] = 1 + max((level[b] for b in direct[folder]), default=-1)
     layers = [sorted(r for r in level if level[r] == n) for n in range(max(level.values()) + 1)]
     steps = []  # arrows from one layer to the next
-    for room in sorted(direct):
-        for target in direct[room]:
-            path = [room] + [(room, target, n) for n in range(level[room] - 1, level[target], -1)] + [target]
-            for node, n in zip(path[1:-1], range(level[room] - 1, level[target], -1)):
+    for folder in sorted(direct):
+        for target in direct[folder]:
+            path = [folder] + [(folder, target, n) for n in range(level[folder] - 1, level[target], -1)] + [target]
+            for node, n in zip(path[1:-1], range(level[folder] - 1, level[target], -1)):
                 layers[n].append(node)
             steps.append(path)
     return layers, steps
@@ -102,10 +102,10 @@ def draw(size, below):
             line += "" if following == path[-1] else f"V{y1 + HEIGHT}"
         out.append(f'<path d="{line}" fill="none" stroke="#456" stroke-width="1.2" marker-end="url(#a)"/>')
 
-    def box(left, above, width, room):
-        files, lines = size[room]
-        out.append(f'<rect x="{left:.0f}" y="{above}" width="{width}" height="{HEIGHT}" rx="5" fill="{"#cfe3f7" if room in PHYSICS else "#f4f4f0"}" stroke="#456"/>'
-                   f'<text x="{left + width / 2:.0f}" y="{above + 18}" text-anchor="middle" font-weight="bold">{room}</text>'
+    def box(left, above, width, folder):
+        files, lines = size[folder]
+        out.append(f'<rect x="{left:.0f}" y="{above}" width="{width}" height="{HEIGHT}" rx="5" fill="{"#cfe3f7" if folder in PHYSICS else "#f4f4f0"}" stroke="#456"/>'
+                   f'<text x="{left + width / 2:.0f}" y="{above + 18}" text-anchor="middle" font-weight="bold">{folder}</text>'
                    f'<text x="{left + width / 2:.0f}" y="{above + 34}" text-anchor="middle" font-size="11">{files} files, {round(lines, -2) or lines} lines</text>')
 
     box(20, 10, WIDTH - 40, TOP)
@@ -118,4 +118,4 @@ def draw(size, below):
 
 if __name__ == "__main__":
     at = sys.argv[sys.argv.index("--at") + 1] if "--at" in sys.argv else None
-    pathlib.Path(sys.argv[2]).write_text(draw(*rooms_of(sources(pathlib.Path(sys.argv[1]), at))), encoding="utf-8")
+    pathlib.Path(sys.argv[2]).write_text(draw(*folders_of(sources(pathlib.Path(sys.argv[1]), at))), encoding="utf-8")
