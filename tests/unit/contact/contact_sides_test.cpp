@@ -38,8 +38,8 @@ Index tracked(const std::string& contact) {
 
 }  // namespace
 
-// Nodes of SURFA look at faces of SURFB and the other way round; NODES_TO_SURFACE only the first. Faces count
-// with all corners in the box.
+// Nodes of SURFA meet faces of SURFB, and those of SURFB faces of SURFA; NODES_TO_SURFACE only the first.
+// Faces count with all corners in the box.
 TEST(ContactSidesOfCards, AreThoseThatTheFieldsName) {
   struct Case {
     std::string name, fields;

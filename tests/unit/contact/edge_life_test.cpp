@@ -1,4 +1,4 @@
-// When edges touch and when not, the steps they allow, and what they tell of it.
+// When edges touch and when not, the steps they allow, and what they report.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST(EdgeLife, BirthAndDeath) {
 }
 
 // Springs of 4e9: omega^2 is at most k sum |share| share/m, 0.7 of both edges at the first node; a step
-// before it nine tenths of the way. What came and went does not count when something else comes.
+// before it nine tenths of the gap. What came and went does not count when something else comes.
 TEST(EdgeLife, AllowsAStepUpToTheTouch) {
   EdgeScene s;
   s.law.slsfac = 1e8;
@@ -146,7 +146,7 @@ TEST(EdgeLife, PenetrationsOfTheStart) {
   EdgeScene later;
   later.gap = -0.003, later.law.birth = 1;
   later.build();
-  EXPECT_EQ(later.contact->penetrations(later.world).count, 0) << "who is born later tells then";
+  EXPECT_EQ(later.contact->penetrations(later.world).count, 0) << "counted at its birth";
 }
 
 }  // namespace edge_life_test

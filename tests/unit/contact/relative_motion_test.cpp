@@ -18,7 +18,8 @@ struct Forces {
   Vec particle;
   std::vector<Vec> corner;
 };
-/// One particle 0.004 deep over a plate of 1 x 1, after two steps of 1e-4 in place; `wall` at each place.
+/// One particle 0.004 deep over a plate of 1 x 1, after two steps of 1e-4 at rest; `wall`: velocity by
+/// position.
 template <class Wall>
 Forces forces(const Vec& v, const Wall& wall) {
   test::Scene scene;
@@ -40,7 +41,7 @@ Forces forces(const Vec& v, const Wall& wall) {
 
 }  // namespace
 
-// Of a wall whose corners move differently, the velocity at the place of the particle counts.
+// Of a wall whose corners move differently, the velocity under the particle counts.
 TEST(RelativeMotion, ParticlesFeelTheVelocityOfTheWallWhereTheyAre) {
   const Vec v(0.02, -0.01, -0.3);
   const auto at_rest = [](const Vec&) { return Vec(Vec::Zero()); };
@@ -58,7 +59,7 @@ TEST(RelativeMotion, ParticlesFeelTheVelocityOfTheWallWhereTheyAre) {
 }
 
 // Two nodes push a face of a body: in the last step before they leave, the force is that of the spring of
-// both on the body, which they push down, with the moment of both about the place.
+// both on the body, which they push down, with the moment of both about the point.
 TEST(RelativeMotion, BodiesAnswerToAllThatTouchThem) {
   TouchScene scene;
   scene.held = false, scene.at = Vec(-0.5, -0.2, 0.001);
@@ -66,7 +67,7 @@ TEST(RelativeMotion, BodiesAnswerToAllThatTouchThem) {
   scene.bodies.give = [](Index, const Vec&, const Vec&) { return 0.25; };
   scene.bodies.change = [](Index, const Vec&, const Clock&) { return Vec(Vec::Zero()); };
   struct Asked {
-    Vec place, impulse, moment;
+    Vec q, impulse, moment;
   };
   std::vector<Asked> asked;
   constexpr Real per_mass = 4000, per_inertia = 3000;  // so light that the spring matters within a step
@@ -83,7 +84,7 @@ TEST(RelativeMotion, BodiesAnswerToAllThatTouchThem) {
   scene.step(0.002);  // 0.002 deep, and out within the next
   asked.clear();
   scene.step(0.0012);
-  const Vec place[2] = {scene.world.nodes.x.vec(4), scene.world.nodes.x.vec(5)};
+  const Vec point[2] = {scene.world.nodes.x.vec(4), scene.world.nodes.x.vec(5)};
   const Real k = 2.5, depth = 0.0008;
   std::vector<Asked> of_both;
   for (const Asked& one : asked)
@@ -91,13 +92,13 @@ TEST(RelativeMotion, BodiesAnswerToAllThatTouchThem) {
   ASSERT_EQ(of_both.size(), 2u);
   for (const Asked& one : of_both) {
     EXPECT_NEAR((one.impulse - Vec(0, 0, -2 * k)).norm(), 0, 1e-12) << "they push the body down";
-    // as the places were a step ago: along z they have moved by a millimetre, which has no moment
-    const Vec moment = (place[0] + place[1] - 2 * one.place).cross(Vec(0, 0, -k));
+    // as the points were a step ago: along z they have moved by a millimetre, which has no moment
+    const Vec moment = (point[0] + point[1] - 2 * one.q).cross(Vec(0, 0, -k));
     EXPECT_NEAR((one.moment - moment).norm(), 0, 1e-12);
   }
   for (const Index n : {4, 5}) {
     const Vec& q = scene.world.nodes.x.vec(n);
-    const Vec moment = (place[0] + place[1] - 2 * q).cross(Vec(0, 0, -k)) + q.cross(Vec(0, 0, -2 * k));
+    const Vec moment = (point[0] + point[1] - 2 * q).cross(Vec(0, 0, -k)) + q.cross(Vec(0, 0, -2 * k));
     const Real of_body = -(per_mass * Vec(0, 0, -2 * k) + (per_inertia * moment).cross(q))[2], of_node = k;
     const Real part = part_of_step(depth, 1, 0.0012, of_node + of_body);
     EXPECT_NEAR(part * k * depth, scene.force_on(n)[2], 1e-12) << n;

@@ -41,7 +41,7 @@ std::unique_ptr<Simulation> solids(const Formulation& f, const std::string& mate
                material;
   return simulation_of(deck.text(1));
 }
-/// Nodes move so that x becomes A x at the end of the step; looks at the elements then.
+/// Nodes move so that x becomes A x at the end of the step, then `look` gets the points.
 template <class Look>
 void move_by(Simulation& s, const Matrix& A, const Look& look) {
   s.step(do_nothing);                                           // the length of the step before counts, too
@@ -62,7 +62,7 @@ void move_by(Simulation& s, const Matrix& A, const Look& look) {
 }  // namespace
 
 // A turn of 0.6 within a step: the rate of strain belongs to the middle of the step, where that of a turn is
-// none. With the places at either end it is a strain of some tenths.
+// none. With the positions at either end it is a strain of some tenths.
 TEST(SolidMotion, ATurnWithinAStepGivesNoStress) {
   const Matrix turn = Eigen::AngleAxisd(0.6, Vec(1, 2, -2) / 3).toRotationMatrix();
   for (const Formulation& f : formulations) {
@@ -70,7 +70,7 @@ TEST(SolidMotion, ATurnWithinAStepGivesNoStress) {
     ASSERT_NE(s, nullptr) << f.elform;
     move_by(*s, turn, [&](const World&, const PointReport& point) {
       for (const Real stress : point.stress)
-        // of 1E5 times the strain; nodes are 1e-4 off their places by the kick of what v at a point adds up
+        // of 1E5 times the strain; nodes are 1e-4 off by the kick of what v at a point adds up
         // to
         EXPECT_NEAR(stress, 0, 1) << f.elform << " " << static_cast<int>(f.cells);
     });

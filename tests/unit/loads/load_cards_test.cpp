@@ -110,7 +110,7 @@ TEST(LoadCards, PressureOnShellsBeginsAtItsTime) {
 }
 
 // On nodes: velocity, acceleration and displacement along each axis and a vector, SF, BIRTH and DEATH; other
-// axes and nodes stay as they are; others are told which axes are driven.
+// axes and nodes stay as they are; the field of driven axes says so.
 TEST(LoadCards, DrivesOfNodesMoveTheirDegreeOfFreedomInTheirTime) {
   for (const int dof : {1, 2, 3, 4, 5, 6, 7})
     for (const int vad : {0, 1, 2}) {
@@ -164,7 +164,7 @@ TEST(LoadCards, DrivesOfNodesMoveTheirDegreeOfFreedomInTheirTime) {
 
 // 8 kg of TNT 2 m above plates that lie aslant to it, in each system of units that has a number: the pressure
 // of a step is the mean of the wave from half a step before to half a step behind, on the middle of each
-// face, under the angle from there to the charge. Plates are so heavy that they stay at their places.
+// face, under the angle from there to the charge. Plates are so heavy that they do not move.
 TEST(LoadCards, BlastsInAllUnits) {
   struct Units {
     int number;

@@ -149,9 +149,9 @@ TEST(SensorCards, ControlsGoThroughTheirSwitches) {
     }
 }
 
-// It is told by name where nothing exerts the force that is measured, and where a vector has no direction.
-TEST(SensorCards, WhatIsNotThereIsTold) {
-  const auto told = [](const std::string& card) {
+// Refused by name where nothing exerts the force that is measured, and where a vector has no direction.
+TEST(SensorCards, WhatIsNotThereIsRefused) {
+  const auto refusal = [](const std::string& card) {
     Diagnostics diagnostics;
     ReadOptions options;
     const std::string text = plate(card, "*SENSOR_SWITCH\n1,SENSOR,1,GT,1.0\n");
@@ -159,15 +159,15 @@ TEST(SensorCards, WhatIsNotThereIsTold) {
     const auto s = Simulation::build("test.k", options, diagnostics);
     return s ? "" : diagnostics.text();
   };
-  EXPECT_EQ(told("*SENSOR_DEFINE_FORCE\n1,SPC,41,X\n"), "");
-  EXPECT_NE(told("*SENSOR_DEFINE_FORCE\n1,SPC,42,X\n").find("nothing that exerts such a force"),
+  EXPECT_EQ(refusal("*SENSOR_DEFINE_FORCE\n1,SPC,41,X\n"), "");
+  EXPECT_NE(refusal("*SENSOR_DEFINE_FORCE\n1,SPC,42,X\n").find("nothing that exerts such a force"),
             std::string::npos);
-  EXPECT_NE(told("*SENSOR_DEFINE_FORCE\n1,PRESC-MOT,33,X\n").find("nothing that exerts such a force"),
+  EXPECT_NE(refusal("*SENSOR_DEFINE_FORCE\n1,PRESC-MOT,33,X\n").find("nothing that exerts such a force"),
             std::string::npos);
-  EXPECT_NE(told("*DEFINE_VECTOR\n9,1.0,1.0,1.0,1.0,1.0,1.0\n*SENSOR_DEFINE_FORCE\n1,SPC,41,9\n")
+  EXPECT_NE(refusal("*DEFINE_VECTOR\n9,1.0,1.0,1.0,1.0,1.0,1.0\n*SENSOR_DEFINE_FORCE\n1,SPC,41,9\n")
                 .find("vector 9"),
             std::string::npos);
-  EXPECT_NE(told("*SENSOR_DEFINE_FORCE\n1,SPC,41,W\n").find("vector W does not exist"), std::string::npos);
+  EXPECT_NE(refusal("*SENSOR_DEFINE_FORCE\n1,SPC,41,W\n").find("vector W does not exist"), std::string::npos);
 }
 
 }  // namespace sensor_cards_test

@@ -64,7 +64,7 @@ struct Lsda {
     const std::string values = bytes_.substr(at + 11 + name.size(), word(at) - 11 - name.size());
     EXPECT_EQ(values.size(), count * (type == 1 ? 1 : 8)) << name;
     const std::string path = folder + "/" + name;
-    EXPECT_FALSE(numbers.contains(path) || texts.contains(path)) << path << " stands there twice";
+    EXPECT_FALSE(numbers.contains(path) || texts.contains(path)) << path << " is there twice";
     if (type == 1) {
       texts[path] = values;
       return;
@@ -310,7 +310,7 @@ TEST(Binout, HoldsEachNumberOfEachState) {
   }
 }
 
-// Of a run that goes on from its second state the third stands behind it, as if it had never stopped; what
+// Of a run that goes on from its second state the third follows it, as if it had never stopped; what
 // the earlier run had written after that is gone. The first potential energy is that of the first run.
 TEST(Binout, GoesOnAfterARestart) {
   test::ScratchFolder folder;

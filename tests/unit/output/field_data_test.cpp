@@ -145,8 +145,8 @@ TEST(FieldData, RoundingKeepsToItsBounds) {
   EXPECT_FALSE(std::signbit(rounded(-0.1, 1)));
 }
 
-// Places have 64 bits where 24 of them are off by a thousandth of h: beyond 0.006/1000 x 2^24 = 100.7.
-TEST(FieldData, PlacesFarFromTheOriginAreExact) {
+// Positions have 64 bits where 24 of them are off by a thousandth of h: beyond 0.006/1000 x 2^24 = 100.7.
+TEST(FieldData, PositionsFarFromTheOriginAreExact) {
   for (const auto& [x, type] : {std::pair(90.0, "Float32"), {110.0, "Float64"}, {-110.0, "Float64"}}) {
     Small s;
     s.options.float64 = false;
@@ -324,7 +324,7 @@ TEST(FieldData, ARestartGoesOnWithTheSameBytes) {
   }
 }
 
-// Of a run that stopped in error: particles that have a place, halo among them, without rounding; no grids
+// Of a run that stopped in error: particles that have a position, halo among them, without rounding; no grids
 // where a node has none. The list of states does not know of them.
 TEST(FieldData, TheStateOfAFailure) {
   Written w;

@@ -21,7 +21,7 @@ struct Dataset {
   std::vector<Real> values{};
 };
 
-/// What stands in a file, and titles of its groups.
+/// What is in a file, and titles of its groups.
 struct Content {
   std::map<std::string, Dataset> datasets{};
   std::map<std::string, std::string> titles{};
@@ -143,7 +143,7 @@ TEST(HistoryFile, EachDatasetHasItsDimension) {
                                                              {"joints/4", "hinge"}}));
 }
 
-TEST(HistoryFile, ParticlesAndTheClockStandUnderTheirNames) {
+TEST(HistoryFile, ParticlesAndTheClockHaveTheirNames) {
   test::ScratchFolder folder;
   const Sample s = sample_at(3);
   const ParticleSample& p = s.particles[0];

@@ -70,8 +70,8 @@ TEST(BodyCards, StartsAreAlongTheirSystem) {
 }
 
 // Each degree of freedom of a drive from BIRTH to DEATH: SF times the curve over the time since BIRTH, as a
-// velocity, an acceleration or a displacement; the others go on, and the force of the drive is told while it
-// drives.
+// velocity, an acceleration or a displacement; the others go on, and the force of the drive is reported while
+// it drives.
 TEST(BodyCards, DrivesMoveTheirDegreeOfFreedomInTheirTime) {
   for (const int dof : {1, 2, 3, 5, 6, 7})
     for (const int vad : {0, 1, 2}) {
@@ -196,7 +196,7 @@ TEST(BodyCards, MotionsAreScaledAndStarted) {
               0, 1e-12);
 }
 
-// A body on a pivot gives way to a push as one that turns about it, (r x n) . J^-1 (r x n) about the pivot,
+// A body on a pivot yields to a push as one that turns about it, (r x n) . J^-1 (r x n) about the pivot,
 // and what answers the push leaves the pivot at rest.
 TEST(BodyCards, JointsAnswerPushes) {
   JointDeck deck;
@@ -221,8 +221,8 @@ TEST(BodyCards, JointsAnswerPushes) {
   EXPECT_NEAR((turn - J.inverse() * (5 * r)).norm(), 0, 1e-12);
 }
 
-// A bob that hangs at a pivot swings with sqrt(pull arm J^-1) as a string does: half of what is stable.
-TEST(BodyCards, PullsAtArmsLimitTheStep) {
+// A bob that hangs at a pivot swings with sqrt(F arm J^-1) as a string does: half of what is stable.
+TEST(BodyCards, ForcesAtArmsLimitTheStep) {
   JointDeck deck;
   const int ground = deck.ground(), bob = deck.body({.m = 2, .J = inertia});
   deck.joint("SPHERICAL", ground, bob, {Vec(0, 0, 0.5)});

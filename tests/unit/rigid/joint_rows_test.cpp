@@ -1,5 +1,5 @@
 // Equations of each kind of joint against what they say in words, their gradients and their changes over a
-// step against differences; what stands below them: springs, the sparse matrix, loops of joints.
+// step against differences; what they rest on: springs, the sparse matrix, loops of joints.
 #include "rigid/joints/joint_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ struct Pair {
     joint.axes_b = b.q.toRotationMatrix().transpose() * turn * A;
   }
   static BodyPose moved(const BodyPose& pose, const BodyStep& step, Real share) {
-    return {pose.x + share * step.way, turned_by(share * step.angle, pose.q)};
+    const auto& [shift, angle] = step;
+    return {pose.x + share * shift, turned_by(share * angle, pose.q)};
   }
   std::vector<JointRow> rows(Real share = 0) const {
     std::vector<JointRow> out;
@@ -53,14 +54,18 @@ struct Pair {
     return out;
   }
   std::vector<Real> changes(Real share) const {
-    const auto part = [share](const BodyStep& s) { return BodyStep{share * s.way, share * s.angle}; };
+    const auto part = [share](const BodyStep& step) {
+      const auto& [shift, angle] = step;
+      return BodyStep{share * shift, share * angle};
+    };
     std::vector<Real> out;
     add_changes(joint, a, b, part(step_a), part(step_b), out);
     return out;
   }
   Real rate(const JointRow& row) const {
-    return row.v_a.dot(step_a.way) + row.w_a.dot(step_a.angle) + row.v_b.dot(step_b.way) +
-           row.w_b.dot(step_b.angle);
+    const auto& [shift_a, angle_a] = step_a;
+    const auto& [shift_b, angle_b] = step_b;
+    return row.v_a.dot(shift_a) + row.w_a.dot(angle_a) + row.v_b.dot(shift_b) + row.w_b.dot(angle_b);
   }
 };
 
@@ -277,8 +282,8 @@ TEST(JointRows, TheMatrixIsSolved) {
   }
 }
 
-// A chain is no loop, nor is one that hangs at the ground once; two ways to the ground, or a ring, are. What
-// holds or drives a body is a way to the ground; a fixed body joins nothing.
+// A chain is no loop, nor is one that hangs at the ground once; two paths to the ground, or a ring, are. What
+// holds or drives a body is a path to the ground; a fixed body joins nothing.
 TEST(JointRows, LoopsOfJointsAreKnown) {
   const auto body = [](bool fixed) {
     RigidBody b;
