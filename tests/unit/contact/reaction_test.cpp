@@ -58,6 +58,29 @@ void share_a_plate(bool held) {
   }
 }
 
+TEST(Reaction, PassesAddItToNodesAndFaces) {
+  for (const bool held : {true, false}) {
+    Scene s;
+    s.held = held;
+    s.plate(Vec(0, 0, 0), Vec(0.1, 0, 0), Vec(0, 0.1, 0), 2, 2);
+    s.x = {Vec(0.02, 0.03, 0.004), Vec(0.07, 0.02, 0.007)};
+    s.build();
+    World& w = s.world;
+    add_contact(w, s.contact);
+    for (int step = 0; step < 2; ++step) {
+      s.clear(), s.clear_walls();
+      for (Force* pass : w.passes.all<Force>()) {
+        pass->start(w, s.clock), pass->block(w, s.clock, 0, pass->over(w).size());
+        pass->finish(w, s.clock);
+      }
+    }
+    const Sums f = sums(w);
+    EXPECT_GT(f.particles.z(), 0);
+    EXPECT_NEAR((f.nodes + (held ? 0 : 1) * f.particles).norm(), 0, 1e-12 * f.particles.norm());
+    if (!held) EXPECT_NEAR((f.segments + f.particles).norm(), 0, 1e-12 * f.particles.norm());
+  }
+}
+
 TEST(Reaction, TwoInterfacesAddUpOnSharedNodes) {
   share_a_plate(true);
   share_a_plate(false);

@@ -49,7 +49,7 @@ struct TouchScene {
     clock.dt = clock.dt_old = dt;
     for (Index n = 4; n < 8; ++n) world.nodes.x.add(n, dt * world.nodes.v.vec(n));
     contact->start(world, clock);
-    contact->block(world, clock, 0, 1);
+    contact->block(world, clock, 0, contact->tracked());
     contact->finish(world, clock);
   }
   Vec force_on(Index n) const {

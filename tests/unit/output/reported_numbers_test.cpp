@@ -2,7 +2,6 @@
 // elements and sections, field arrays, the summary. Sections against forces by hand.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <cstring>
@@ -20,7 +19,6 @@
 #include "output/fields/stress_invariants.hpp"
 #include "output/fields/vtk_arrays.hpp"
 #include "output/glstat.hpp"
-#include "output/summary.hpp"
 #include "output_test.hpp"
 #include "state/shared_fields.hpp"
 
@@ -360,34 +358,6 @@ TEST(ReportedNumbers, OfFields) {
   EXPECT_EQ(reals_of(solid_data(b.world, options), "part"), (std::vector<Real>{70, 70}));
   shared_fields::eroded.add(of_bricks)[0] = 1;
   EXPECT_EQ(reals_of(solid_data(b.world, options), "shown"), (std::vector<Real>{22}));
-}
-
-// Each number of the summary's ledger and times under its own name.
-TEST(ReportedNumbers, OfTheSummary) {
-  Summary s;
-  EnergyLedger& e = s.energy;
-  Real next = 1.5;
-  for (Real* one : {&e.kinetic, &e.internal, &e.potential, &e.contact, &e.hourglass, &e.bulk_viscosity,
-                    &e.dissipated, &e.external_work, &e.throughput, &e.initial, &e.peak})
-    *one = next, next *= 1.7;
-  s.wall_seconds = 3, s.cpu_seconds = 5, s.particle_steps = 7, s.element_steps = 11;
-  test::ScratchFolder folder;
-  write_summary(folder / "summary.yaml", s);
-  const YAML::Node read = YAML::LoadFile((folder / "summary.yaml").string());
-  const auto near = [](const YAML::Node& node, Real expected) {
-    EXPECT_NEAR(node.as<Real>(), expected, 1e-9 * std::abs(expected));
-  };
-  const YAML::Node energy = read["energy"];
-  near(energy["kinetic"], e.kinetic), near(energy["internal"], e.internal);
-  near(energy["potential"], e.potential), near(energy["contact"], e.contact);
-  near(energy["hourglass"], e.hourglass), near(energy["bulk_viscosity"], e.bulk_viscosity);
-  near(energy["dissipated"], e.dissipated), near(energy["external_work"], e.external_work);
-  near(energy["throughput"], e.throughput), near(energy["initial"], e.initial);
-  near(energy["total"], e.total()), near(energy["residual"], e.total() - e.initial - e.external_work);
-  near(energy["ratio"], e.total() / (e.initial + e.external_work));
-  near(energy["scale"], e.peak + e.throughput), near(energy["error"], e.error());
-  near(read["ns_per_particle_step"], 5e9 / 7), near(read["elapsed_ns_per_particle_step"], 3e9 / 7);
-  near(read["ns_per_element_step"], 5e9 / 11), near(read["elapsed_ns_per_element_step"], 3e9 / 11);
 }
 
 // Rows of a gauge that wait are in its file at the end.
