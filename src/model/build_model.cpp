@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "model/mesh/cards_beam.hpp"
+#include "model/mesh/cards_inertia.hpp"
 #include "model/mesh/mesh_cards.hpp"
+#include "model/mesh/shell_composite.hpp"
 #include "model/model_builder.hpp"
 #include "model/sets/sets.hpp"
 
@@ -10,6 +15,22 @@ namespace courant {
 
 Model build_model(const Deck& deck, Diagnostics& diagnostics, RunPhase phase) {
   return ModelBuilder(deck, diagnostics, phase).build();
+}
+
+void sort_mesh_cards(Deck& deck) {
+  const auto sort = [&]<class Card, class Owner>(std::type_identity<Card>, Id Owner::*id) {
+    std::vector<Card>& cards = deck.store<Card>();
+    const auto before = [id](const Card& a, const Card& b) { return a.*id < b.*id; };
+    if (!std::is_sorted(cards.begin(), cards.end(), before))
+      std::stable_sort(cards.begin(), cards.end(), before);
+  };
+  sort(std::type_identity<NodeCard>(), &NodeCard::nid);
+  sort(std::type_identity<ElementSphCard>(), &ElementSphCard::nid);
+  sort(std::type_identity<ElementShellCard>(), &ElementShellCard::eid);
+  sort(std::type_identity<ElementShellCompositeCard>(), &ElementShellCompositeCard::eid);
+  sort(std::type_identity<ElementSolidCard>(), &ElementSolidCard::eid);
+  sort(std::type_identity<ElementBeamCard>(), &ElementBeamCard::eid);
+  sort(std::type_identity<ElementInertiaCard>(), &ElementInertiaCard::eid);
 }
 
 void release_mesh_cards(Deck& deck) {

@@ -1,6 +1,8 @@
 #pragma once
 // Cells for sorting and searching particles. A row of cells runs along x; rows are visited like a snake, so
-// that particles which follow each other in the sorted order are near each other, also where rows meet.
+// that particles which follow each other in the sorted order are near each other, also where rows meet. The
+// borders of cells are multiples of their size from an origin that does not change in a run, and rows turn at
+// even numbers of these: the order of two particles depends on where they are, not on what the grid covers.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +16,13 @@ namespace courant {
 
 class CellGrid {
  public:
-  /// Covers low..high [L]. `row`: width of a row in y and z, `bin`: length of a cell along x [L]; both grow
-  /// where there would be more than `most` cells.
-  void cover(const Vec& low, const Vec& high, Real row, Real bin, Real most);
+  /// `row`: width of a row in y and z, `bin`: length of a cell along x [L]; both grow where low..high [L]
+  /// would have more than `most` cells.
+  void set_size(const Vec& low, const Vec& high, Real row, Real bin, Real most);
+  /// Covers low..high [L].
+  void cover(const Vec& low, const Vec& high);
+  /// Where borders of cells meet, whatever their size is. [L]
+  void set_origin(const Vec& origin) { origin_ = origin; }
 
   Index total() const { return cells_[0] * cells_[1] * cells_[2]; }
   /// For the loop that finds the cells of particles.
@@ -31,7 +37,7 @@ class CellGrid {
 
  private:
   Index at(Real x, int axis) const {
-    const Real k = (x - origin_[axis]) * inverse_[axis];
+    const Real k = std::floor((x - origin_[axis]) * inverse_[axis]) - first_[axis];
     return k > 0 ? (k < cells_[axis] - 1 ? static_cast<Index>(k) : cells_[axis] - 1) : 0;
   }
   Index row_at(Index y, Index z) const { return z * cells_[1] + (z & 1 ? cells_[1] - 1 - y : y); }
@@ -39,11 +45,14 @@ class CellGrid {
   /// Distance along an axis between low..high and layer k of cells; 0 where the layer at the border also
   /// holds what lies beyond it.
   Real gap(Real low, Real high, Index k, int axis) const {
-    const Real start = origin_[axis] + static_cast<Real>(k) * size_[axis];
-    return std::max({start - high, low - start - size_[axis], Real(0)});
+    const Real size = 1 / inverse_[axis],
+               start = origin_[axis] + (first_[axis] + static_cast<Real>(k)) * size;
+    return std::max({start - high, low - start - size, Real(0)});
   }
 
-  Vec origin_ = Vec::Zero(), size_ = Vec::Ones(), inverse_ = Vec::Ones();
+  Vec origin_ = Vec::Zero();
+  Vec first_ = Vec::Zero();  ///< even numbers of cells from the origin to the first one, along each axis
+  Vec inverse_ = Vec::Ones();
   std::array<Index, 3> cells_{1, 1, 1};
 };
 

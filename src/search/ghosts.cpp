@@ -21,7 +21,7 @@ class Mirrors : public Relocation {
   std::string name() const override { return "mirrors"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.revises(p.x).revises(p.v).reads(p.part);
+    a.revises(p.x).revises(p.v).reads(p.part).reads(p.state);
     if (const auto* pull = shared_fields::mirror_pull.find(p.fields)) a.reads(*pull);
   }
   void start(World& world, const Clock& clock) override {
@@ -44,7 +44,7 @@ class Mirrors : public Relocation {
     if (!(depth_range(loops_, plane, p, begin, end).least < 0)) return;
     for (Index i = begin; i < end; ++i) {
       const Real d = depth(plane, p.x.vec(i));
-      if (!(d < 0)) continue;
+      if (!(d < 0) || p.state[i] == particle_waiting) continue;
       const Real pull = -loads_(p.x.vec(i), t_, p.part[i]).dot(plane.normal);
       const Real across = -p.v.vec(i).dot(plane.normal);  // outwards
       const Real back =
@@ -122,7 +122,8 @@ void GhostParticles::bring_back(World& world, Index n) {
     find(plane, p, 0, n, is_outside);
     for (const Index i : scratch_) {
       const Vec before = p.x.vec(i);
-      if (p.state[i] == particle_deactivated || !before.allFinite()) continue;
+      if (p.state[i] == particle_deactivated || p.state[i] == particle_waiting || !before.allFinite())
+        continue;
       if (mirror) {
         p.x.set(i, mirror_[k].of(before));
         p.v.set(i, mirror_[k].A * p.v.vec(i));

@@ -43,16 +43,24 @@ void find(const NearQuery& q, Index begin, Index end, NearFound& found) {
 void cells(const CellFrame& f, const Real* const at[3], Index begin, Index end, Index* __restrict cell) {
   const Real *x = at[0], *y = at[1], *z = at[2];
   const Real x0 = f.origin[0], y0 = f.origin[1], z0 = f.origin[2];
+  const Real nx = f.first[0], ny = f.first[1], nz = f.first[2];
   const Real ax = f.inverse_size[0], ay = f.inverse_size[1], az = f.inverse_size[2];
   const Index mx = f.cells[0] - 1, my = f.cells[1] - 1, mz = f.cells[2] - 1;
+  const auto floor_of = [](Real a) {            // by rounding, which the baseline has in a vector, too
+    constexpr Real whole = 6755399441055744.0;  // 1.5 x 2^52: sums with it have a resolution of 1
+    const Real near = (a + whole) - whole;
+    return near > a ? near - 1 : near;
+  };
   const auto along = [](Real k, Index last) {  // what is not a number: 0
     const Real most = last, up = k < most ? k : most;
     return static_cast<Index>(k > 0 ? up : 0);
   };
 #pragma omp simd
   for (Index i = begin; i < end; ++i) {
-    const Index kx = along((x[i] - x0) * ax, mx), ky = along((y[i] - y0) * ay, my),
-                kz = along((z[i] - z0) * az, mz);
+    // not from the first one on: what lies on a border shall round alike whatever the grid covers
+    const Index kx = along(floor_of((x[i] - x0) * ax) - nx, mx),
+                ky = along(floor_of((y[i] - y0) * ay) - ny, my),
+                kz = along(floor_of((z[i] - z0) * az) - nz, mz);
     const Index row = kz * (my + 1) + (kz & 1 ? my - ky : ky);
     cell[i - begin] = row * (mx + 1) + (row & 1 ? mx - kx : kx);
   }

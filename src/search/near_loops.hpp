@@ -19,9 +19,9 @@ struct NearFound {
   Index within_count = 0, beyond_count = 0;
 };
 
-/// Where cells stand, and how many there are along each axis.
+/// The first cell along each axis, counted from that at the origin, and how many there are.
 struct CellFrame {
-  Real origin[3], inverse_size[3];  ///< [L], [1/L]
+  Real origin[3], inverse_size[3], first[3];  ///< [L], [1/L], [-]
   Index cells[3];
 };
 

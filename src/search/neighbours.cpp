@@ -100,9 +100,11 @@ void Neighbours::adapt_skin(Real least, Real most, Real weight) {
   skin_ = std::clamp(skin_, least, most);
 }
 
-void Neighbours::set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet) {
+void Neighbours::set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet,
+                            const Field<Real>& start) {
   inlets_ = std::move(planes);
   inlet_ = &inlet;
+  start_ = &start;
 }
 
 /// Where it is now. Particles that MAXV switched off are not asked about.
@@ -112,10 +114,10 @@ bool Neighbours::is_solved_for(const Particles& p, Index i) const {
          (p.state[i] != particle_waiting || inlets_[(*inlet_)[i]].behind(x));
 }
 
-/// How long until a particle that is not solved for, with constant velocity, can be within `reach` of where
-/// it would be. [T]
-Real Neighbours::time_to_reach(const Particles& p, Index i, Real reach) const {
-  const Vec x = p.x.vec(i), v = p.v.vec(i);
+/// How long until a particle at x that is not solved for, with constant velocity, can be within `reach` of
+/// where it would be. [T]
+Real Neighbours::time_to_reach(const Particles& p, Index i, const Vec& x, Real reach) const {
+  const Vec v = p.v.vec(i);
   Real time = region_ ? region_->time_to_reach(x, v, reach) : 0;
   if (p.state[i] == particle_waiting) time = std::max(time, inlets_[(*inlet_)[i]].time_to_reach(x, v, reach));
   return time;
@@ -133,13 +135,16 @@ bool Neighbours::refresh(World& world, const Clock& clock) {
   bool all = !built_ || must_wake_all(world);
   if (all) wake_all(world, clock.t);
   const Index n = all ? p.size() : p.moving + take_due(world, clock.t);
-  if (n == p.size()) {  // the last ones were due: those that are still far sleep on from where they are now
+  // the last ones were due: those that are still far sleep on from where they are now. How many wait at
+  // inlets depends on ENDTIM
+  if (!all && n == p.size() && !inlet_) {
     all = true;
+    h_queued_ = largest_h(p);
     p.dormant_time = clock.t;
   }
   choose_skin(clock);
   for (const GhostRange& range : ghosts_) range.ghosts->bring_back(world, n);
-  sort(world, clock, n);
+  sort(world, clock, n, all);
   p.fields.permute(order_);
   note_changes(p, active_before);
   if (all) queue_dormant(p);

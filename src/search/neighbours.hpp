@@ -51,8 +51,9 @@ class Neighbours {
   /// The particle that entity j is, or is a copy of; -1: it is a ghost of none.
   Index particle_of(const Particles& p, Index j) const;
   /// Particles in the state particle_waiting become active when they cross the plane that `inlet` counts from
-  /// 0 (and are inside the box, where there is one). Call before the first refresh.
-  void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet);
+  /// 0 (and are inside the box, where there is one). At time t they are at `start` + v t, so that their last
+  /// bits do not depend on when they woke. Call before the first refresh.
+  void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet, const Field<Real>& start);
 
   /// Sorts and rebuilds if it must. Returns true if it did; then every Refresh of the world was told.
   /// Throws RunError naming a particle whose place is no longer a finite number.
@@ -145,20 +146,26 @@ class Neighbours {
   class Watch;
 
   bool is_solved_for(const Particles& p, Index i) const;
-  Real time_to_reach(const Particles& p, Index i, Real reach) const;
+  Real time_to_reach(const Particles& p, Index i, const Vec& x, Real reach) const;
   Index take_due(World& world, Real t);
   void wake_all(World& world, Real t);
+  bool sleeps_on(const Particles& p, Index i, Real t) const;
+  void move_dormant(Particles& p, Index i, Real t) const;
+  static Real largest_h(const Particles& p);
   bool must_wake_all(const World& world) const;
   void stop_for_leaps(const World& world, const Clock& clock) const;
   void stop_for_lost_particles(const World& world, const Clock& clock, Index n) const;
   void choose_skin(const Clock& clock);
   bool all_active(const Particles& p, Index begin, Index end) const;
-  void sort(World& world, const Clock& clock, Index n);
+  void sort(World& world, const Clock& clock, Index n, bool all);
+  void sort_cells_by_id(const Particles& p, Index cells);
   void find_cells(const Particles& p, Index first, Index last, Index* cell) const;
   void take_cell_starts(Index cells);
   void order_dormant(const Particles& p);
   void queue_dormant(const Particles& p);
+  void queue_more_that_wait(Particles& p);
   Real due_time(const Particles& p, Index i) const;
+  Real waking_time(const Particles& p, Index i) const;
   void note_changes(Particles& p, Index active_before);
   void build_ghosts(World& world);
   void count_cells(const World& world);
@@ -189,12 +196,12 @@ class Neighbours {
   std::int64_t entries_ = 0, entries_once_ = 0;
   bool tasks_wanted_ = false, whole_needed_ = false;
   Tasks tasks_;
-  std::vector<Real> due_;           ///< when dormant particle moving + k may come within reach, ascending [T]
-  std::size_t first_due_ = 0;       ///< the entry of due_ that belongs to particle `moving`
-  Real waking_time_ = 0;            ///< those due that soon are woken together [T]
-  Real h_queued_ = 0;               ///< h_max_ when due_ was made
-  Index gone_ = 0;                  ///< halo particles that are far from the box
-  std::vector<Index> order_, key_;  // of sorting: before, by place; cells
+  std::vector<Real> due_;               ///< when one of waking_[k] and those behind may come within reach [T]
+  std::size_t first_due_ = 0;           ///< the entry of waking_ and due_ that belongs to particle `moving`
+  const Field<Real>* start_ = nullptr;  ///< where waiting particles were at t = 0 [L]
+  Real h_queued_ = 0;                   ///< the largest h when these were made [L]
+  Index gone_ = 0;                      ///< halo particles that are far from the box
+  std::vector<Index> order_, key_;      // of sorting: before, by position; cells
   std::vector<signed char> group_;
   std::vector<Index> moving_nodes_;  ///< shell nodes that are not held: contact relies on the skin, too
   std::vector<Vec> nodes_built_;
@@ -202,6 +209,7 @@ class Neighbours {
   std::shared_ptr<Watch> watch_;
   std::vector<Index> entered_, left_;
   std::int64_t rebuilds_ = 0;
+  std::vector<Real> waking_;  ///< when dormant particles wake if lists are built then, ascending [T]
 };
 
 inline std::shared_ptr<Neighbours> with_whole_lists(std::shared_ptr<Neighbours> neighbours) {

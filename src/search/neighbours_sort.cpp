@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -14,18 +15,21 @@ namespace courant {
 
 namespace {
 
-/// What decides how particles are sorted.
+/// Where particles are, their h, and the sum of their volumes.
 struct Extent {
   Vec low = Vec::Constant(std::numeric_limits<Real>::infinity()), high = -low;
   Real h_max = 0, h_min = std::numeric_limits<Real>::infinity(), volume = 0;
-  Index active = 0, halo = 0;
+  Index count = 0;
   bool lost = false;  ///< a place or h is not a finite number
   void add(const Extent& other) {
     low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
     h_max = std::max(h_max, other.h_max), h_min = std::min(h_min, other.h_min);
-    volume += other.volume, active += other.active, halo += other.halo;
+    volume += other.volume, count += other.count;
     lost = lost || other.lost;
   }
+};
+struct Extents {
+  Extent active, halo;
 };
 
 enum Group : signed char { group_active = 0, group_halo = 1, group_dormant = 2 };
@@ -36,32 +40,67 @@ constexpr Real waking_margin = 8;
 /// By so much h may grow before it is worked out anew when dormant particles are due.
 constexpr Real h_growth = 1.2;
 
+/// Sums of volumes are multiples of this, of a particle's; so many are added without rounding as fit into 53
+/// bits with it.
+constexpr Real volume_unit = 1.0 / (1 << 20);
+
+// Size and position of cells follow from active particles alone: how many others there are depends on when
+// these woke and on ENDTIM.
+void choose_cells(CellGrid& grid, int dim, Extent core, const Extent& halo, Real h_max, Real reach,
+                  bool ghosts) {
+  if (core.count == 0) core = halo;
+  if (core.count == 0) core.low = core.high = Vec::Zero();
+  // rows as wide as eight particles that stand together, so that groups are compact
+  Real spacing = core.count > 0 ? std::min(std::pow(core.volume / core.count, 1.0 / dim), 1.2 * h_max) : 0;
+  if (!(spacing >= 0.3 * h_max)) spacing = 0.3 * h_max;  // also where volumes are no numbers
+  if (!(spacing > 0)) spacing = 1;
+  grid.set_size(core.low, core.high, (dim == 2 ? std::sqrt(Real(Neighbours::lanes)) : 2) * spacing,
+                0.5 * spacing, most_cells(core.count));
+  // cells beyond them, where ghosts and the halo may be that they meet
+  Vec more = Vec::Constant(reach);
+  if (dim == 2) more[2] = 0;
+  const Vec low = core.low - more, high = core.high + more;
+  if (ghosts)
+    grid.cover(low, high);
+  else if (halo.count > 0)
+    grid.cover(core.low.cwiseMin(halo.low.cwiseMax(low)), core.high.cwiseMax(halo.high.cwiseMin(high)));
+  else
+    grid.cover(core.low, core.high);
+}
+
 }  // namespace
 
-// Dormant particles stand in the order in which they can come within reach, so the first ones are due first.
+Real Neighbours::largest_h(const Particles& p) {
+  return p.size() > 0 ? maximum(p.size(), [&](Index i) { return p.h[i]; }) : 0;
+}
+
+/// To where it is at time t.
+void Neighbours::move_dormant(Particles& p, Index i, Real t) const {
+  if (p.state[i] == particle_waiting)
+    p.x.set(i, start_->vec(i) + p.v.vec(i) * t);
+  else if (rebuilds_ > 0)
+    p.x.set(i, p.x.vec(i) + p.v.vec(i) * (t - p.dormant_time));
+}
+
+// Dormant particles stand in the order in which they wake.
 Index Neighbours::take_due(World& world, Real t) {
   Particles& p = world.particles;
   Index n = 0;
-  while (first_due_ < due_.size() && due_[first_due_] <= t + waking_time_) {
-    const Index i = p.moving + n;
-    p.x.set(i, p.x.vec(i) + p.v.vec(i) * (t - p.dormant_time));
-    ++first_due_;
-    ++n;
-  }
+  for (; first_due_ < waking_.size() && waking_[first_due_] <= t; ++first_due_, ++n)
+    move_dormant(p, p.moving + n, t);
   return n;
+}
+
+/// Whether a particle that waits at an inlet stays dormant where all others are looked at again.
+bool Neighbours::sleeps_on(const Particles& p, Index i, Real t) const {
+  return i >= p.moving && p.state[i] == particle_waiting && waking_time(p, i) > t;
 }
 
 void Neighbours::wake_all(World& world, Real t) {
   Particles& p = world.particles;
-  if (rebuilds_ > 0) {
-    const Real dt = t - p.dormant_time;
-    const Index first = p.moving;
-    for (int d = 0; d < 3; ++d) {
-      Real* x = p.x.data(d);
-      const Real* v = p.v.data(d);
-      for_each(p.size() - first, [=](Index k) { x[first + k] += v[first + k] * dt; });
-    }
-  }
+  h_queued_ = largest_h(p);
+  const Index first = p.moving;
+  for_each(p.size() - first, [&](Index k) { move_dormant(p, first + k, t); });
   p.dormant_time = t;
 }
 
@@ -96,72 +135,85 @@ bool Neighbours::all_active(const Particles& p, Index begin, Index end) const {
   return loops_.inside(region_->low.data(), region_->high.data(), x, begin, end) == end - begin;
 }
 
-void Neighbours::sort(World& world, const Clock& clock, Index n) {
+void Neighbours::sort(World& world, const Clock& clock, Index n, bool all) {
   Particles& p = world.particles;
-  const bool all = n == p.size();
-  if (all) h_max_ = n > 0 ? maximum(n, [&](Index i) { return p.h[i]; }) : 0;
+  if (all) h_max_ = h_queued_;
   const Real near = support_ * h_max_ + most_skin_ + waking_margin * h_max_;
+  const Real unit = volume_unit * std::exp2(std::ceil(world.dim * std::log2(h_max_ > 0 ? h_max_ : 1)));
   group_.resize(n);
   const auto bounds_of = [&](Index begin, Index end) {
     const auto b = loops_.bounds(
-        {{p.x.data(0), p.x.data(1), p.x.data(2)}, p.h.data(), p.m.data(), p.rho.data()}, begin, end);
-    return Extent{Vec(b.low), Vec(b.high), b.h_max, b.h_min, b.volume, 0, 0, b.broken};
+        {{p.x.data(0), p.x.data(1), p.x.data(2)}, p.h.data(), p.m.data(), p.rho.data()}, unit, begin, end);
+    return Extent{Vec(b.low), Vec(b.high), b.h_max, b.h_min, b.volume, 0, b.broken};
   };
   const auto extent_of = [&](Index begin, Index end) {
     if (all_active(p, begin, end)) {
       std::fill(group_.begin() + begin, group_.begin() + end, group_active);
-      Extent e = bounds_of(begin, end);
-      e.active = end - begin;
+      Extents e{bounds_of(begin, end), {}};
+      e.active.count = end - begin;
       return e;
     }
-    Extent e;
+    Extents e;
     for (Index i = begin; i < end; ++i) {
       Extent one = bounds_of(i, i + 1);
-      const bool active = is_solved_for(p, i);
-      const bool far = !active && all && time_to_reach(p, i, near) > 0;
-      group_[i] = p.state[i] == particle_deactivated || far ? group_dormant
-                  : active                                  ? group_active
-                                                            : group_halo;
-      e.lost = e.lost || one.lost;
+      const bool asleep = all && sleeps_on(p, i, clock.t), active = !asleep && is_solved_for(p, i);
+      const bool far =
+          !active && all && p.state[i] != particle_waiting && time_to_reach(p, i, p.x.vec(i), near) > 0;
+      group_[i] = p.state[i] == particle_deactivated || far || asleep ? group_dormant
+                  : active                                            ? group_active
+                                                                      : group_halo;
+      e.active.lost = e.active.lost || one.lost;
       if (group_[i] == group_dormant) continue;
-      (group_[i] == group_active ? one.active : one.halo) = 1;
-      e.add(one);
+      one.count = 1;
+      (group_[i] == group_active ? e.active : e.halo).add(one);
     }
     return e;
   };
-  Extent e = reduce(n, Extent{}, extent_of, [](Extent a, const Extent& b) {
-    a.add(b);
+  Extents e = reduce(n, Extents{}, extent_of, [](Extents a, const Extents& b) {
+    a.active.add(b.active), a.halo.add(b.halo);
     return a;
   });
-  if (e.lost) stop_for_lost_particles(world, clock, n);
-  const Index count = e.active + e.halo;
-  if (count == 0) e.low = e.high = Vec::Zero(), e.h_min = e.h_max = h_max_;
-  h_max_ = e.h_max;
-  h_min_ = e.h_min;
+  if (e.active.lost || e.halo.lost) stop_for_lost_particles(world, clock, n);
+  const Index count = e.active.count + e.halo.count;
+  if (count > 0) h_max_ = std::max(e.active.h_max, e.halo.h_max);
+  h_min_ = count > 0 ? std::min(e.active.h_min, e.halo.h_min) : h_max_;
+  if (rebuilds_ == 0 && count > 0) grid_.set_origin(e.active.count > 0 ? e.active.low : e.halo.low);
+  choose_cells(grid_, world.dim, e.active, e.halo, h_max_, support_ * h_max_ + most_skin_, !ghosts_.empty());
 
-  // rows as wide as eight particles that stand together, so that groups are compact
-  Real spacing = count > 0 ? std::min(std::pow(e.volume / count, 1.0 / world.dim), 1.2 * h_max_) : 0;
-  if (!(spacing >= 0.3 * h_max_)) spacing = 0.3 * h_max_;  // also where volumes are no numbers
-  if (!(spacing > 0)) spacing = 1;
-  if (!ghosts_.empty()) {  // cells beyond the particles, where ghosts may stand
-    const Vec reach = Vec::Constant(support_ * h_max_ + most_skin_);
-    e.low -= reach, e.high += reach;
-    if (world.dim == 2) e.low[2] += reach[2], e.high[2] -= reach[2];
-  }
-  grid_.cover(e.low, e.high, (world.dim == 2 ? std::sqrt(Real(lanes)) : 2) * spacing, 0.5 * spacing,
-              most_cells(count));
   const Index cells = grid_.total();
   key_.resize(n);
   find_cells(p, 0, n, key_.data());
-  const bool some_rest = e.active < n;
+  const bool some_rest = e.active.count < n;
   if (some_rest)
     for_each(
         n, [&](Index i) { key_[i] = group_[i] == group_dormant ? 2 * cells : group_[i] * cells + key_[i]; });
   counting_sort(key_, some_rest ? 2 * cells + 1 : cells, starts_, order_);
-  p.active = e.active;
+  sort_cells_by_id(p, some_rest ? 2 * cells : cells);
+  p.active = e.active.count;
   p.moving = count;
   take_cell_starts(cells);
   if (all) order_dormant(p);
+}
+
+/// Within each cell, so that nothing of the order of before is left. What is sorted is mostly in order
+/// already.
+void Neighbours::sort_cells_by_id(const Particles& p, Index cells) {
+  constexpr Index few = 16;
+  const Id* id = p.id.data();
+  const Index* starts = starts_.data();
+  Index* order = order_.data();
+  for_each(cells, [=](Index c) {
+    const Index begin = starts[c], end = starts[c + 1];
+    if (end - begin > few)
+      std::sort(order + begin, order + end, [id](Index a, Index b) { return id[a] < id[b]; });
+    else
+      for (Index k = begin + 1; k < end; ++k) {
+        const Index one = order[k];
+        Index to = k;
+        for (; to > begin && id[order[to - 1]] > id[one]; --to) order[to] = order[to - 1];
+        order[to] = one;
+      }
+  });
 }
 
 /// cell[0] is that of particle `first`.
@@ -185,28 +237,48 @@ void Neighbours::take_cell_starts(Index cells) {
 // When a dormant particle can be within reach of the box.
 Real Neighbours::due_time(const Particles& p, Index i) const {
   if (p.state[i] == particle_deactivated) return std::numeric_limits<Real>::infinity();
-  const Real reach = support_ * h_growth * h_max_ + most_skin_;
-  return p.dormant_time + time_to_reach(p, i, reach);
+  const Real reach = support_ * (h_changes_ ? h_growth : 1) * h_queued_ + most_skin_;
+  if (p.state[i] == particle_waiting) return time_to_reach(p, i, start_->vec(i), reach);
+  return p.dormant_time + time_to_reach(p, i, p.x.vec(i), reach);
 }
 
-// Behind the moving particles: those first that can be within reach first.
+// From when on it may wake, by itself alone: which others there are depends on ENDTIM.
+Real Neighbours::waking_time(const Particles& p, Index i) const {
+  const Real due = due_time(p, i), speed = p.v.vec(i).norm();
+  if (!(due < std::numeric_limits<Real>::infinity())) return std::numeric_limits<Real>::infinity();
+  return speed > 0 ? due - waking_margin * h_queued_ / speed : due;
+}
+
+// Behind the moving particles: those first that wake first.
 void Neighbours::order_dormant(const Particles& p) {
-  std::vector<Real> due(p.size());
-  for (std::size_t k = p.moving; k < order_.size(); ++k) due[order_[k]] = due_time(p, order_[k]);
-  std::stable_sort(order_.begin() + p.moving, order_.end(),
-                   [&](Index a, Index b) { return due[a] < due[b]; });
+  std::vector<Real> waking(p.size());
+  for (std::size_t k = p.moving; k < order_.size(); ++k) waking[order_[k]] = waking_time(p, order_[k]);
+  std::sort(order_.begin() + p.moving, order_.end(), [&](Index a, Index b) {
+    return waking[a] != waking[b] ? waking[a] < waking[b] : p.id[a] < p.id[b];
+  });
 }
 
 void Neighbours::queue_dormant(const Particles& p) {
-  due_.clear();
   first_due_ = 0;
-  Real fastest = 0;
-  for (Index i = p.moving; i < p.size(); ++i) {
-    due_.push_back(due_time(p, i));
-    if (p.state[i] != particle_deactivated) fastest = std::max(fastest, p.v.vec(i).norm());
+  waking_.resize(static_cast<std::size_t>(p.size() - p.moving));
+  due_.resize(waking_.size());
+  Real next = std::numeric_limits<Real>::infinity();
+  for (std::size_t k = due_.size(); k-- > 0;) {
+    const Index i = p.moving + static_cast<Index>(k);
+    waking_[k] = waking_time(p, i);
+    due_[k] = next = std::min(next, due_time(p, i));
   }
-  h_queued_ = h_max_;
-  waking_time_ = fastest > 0 ? waking_margin * h_max_ / fastest : 0;
+}
+
+/// After loading: with a later ENDTIM more particles wait, behind all others, than the state has.
+void Neighbours::queue_more_that_wait(Particles& p) {
+  for (Index i = p.moving; i < p.size(); ++i)
+    if (p.state[i] == particle_waiting) move_dormant(p, i, p.dormant_time);
+  order_.resize(static_cast<std::size_t>(p.size()));
+  std::iota(order_.begin(), order_.end(), Index(0));
+  order_dormant(p);
+  if (!std::is_sorted(order_.begin(), order_.end())) p.fields.permute(order_);
+  queue_dormant(p);
 }
 
 // Not by the state field: what MAXV switched off leaves, too.
@@ -223,7 +295,7 @@ void Neighbours::note_changes(Particles& p, Index active_before) {
   for (Index i = p.active; i < static_cast<Index>(order_.size()); ++i) {
     if (order_[i] < active_before) left_.push_back(i);
     if (p.state[i] == particle_active) p.state[i] = particle_outside;
-    if (i < p.moving && time_to_reach(p, i, near) > 0) ++gone_;
+    if (i < p.moving && time_to_reach(p, i, p.x.vec(i), near) > 0) ++gone_;
   }
 }
 

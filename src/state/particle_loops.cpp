@@ -76,7 +76,7 @@ Index inside(const Real low[3], const Real high[3], const Real* const at[3], Ind
   return count;
 }
 
-ParticleLoops::Bounds bounds(const ParticleLoops::Bodies& q, Index begin, Index end) {
+ParticleLoops::Bounds bounds(const ParticleLoops::Bodies& q, Real unit, Index begin, Index end) {
   constexpr Real infinity = __builtin_inf();
   ParticleLoops::Bounds out{{}, {}, infinity, -infinity, 0, false};
   int broken = 0;
@@ -93,6 +93,7 @@ ParticleLoops::Bounds bounds(const ParticleLoops::Bodies& q, Index begin, Index 
     out.low[d] = low, out.high[d] = high;
   }
   const Real *h = q.h, *m = q.m, *rho = q.rho;
+  const Real whole = 6755399441055744.0 * unit;  // 1.5 x 2^52: sums with it have the resolution unit
   Real least = infinity, most = -infinity, volume = 0;
 #pragma omp simd reduction(min : least) reduction(max : most) reduction(+ : volume) reduction(| : broken)
   for (Index i = begin; i < end; ++i) {
@@ -100,7 +101,7 @@ ParticleLoops::Bounds bounds(const ParticleLoops::Bodies& q, Index begin, Index 
     least = a < least ? a : least;
     most = most < a ? a : most;
     broken |= a - a == 0 ? 0 : 1;
-    volume += m[i] / rho[i];
+    volume += (m[i] / rho[i] + whole) - whole;
   }
   out.h_min = least, out.h_max = most, out.volume = volume;
   out.broken = broken != 0;

@@ -30,8 +30,8 @@ struct ParticleLoops {
   /// How many are in a box, its faces included.
   Index (*inside)(const Real low[3], const Real high[3], const Real* const x[3], Index begin, Index end);
 
-  /// The box around particles, their extreme h, the sum of m/rho, and whether a place or h is no finite
-  /// number.
+  /// The box around particles, their extreme h, the sum of m/rho, each rounded to a multiple of `unit` so
+  /// that the sum is exact and does not depend on their order, and whether a position or h is no finite number.
   struct Bounds {
     Real low[3], high[3], h_min, h_max, volume;
     bool broken;
@@ -39,7 +39,7 @@ struct ParticleLoops {
   struct Bodies {
     const Real *x[3], *h, *m, *rho;
   };
-  Bounds (*bounds)(const Bodies& particles, Index begin, Index end);
+  Bounds (*bounds)(const Bodies& particles, Real unit, Index begin, Index end);
 
   /// Advances densities by a step, for an equation of state whose pressure needs no energy: rho += dt drhodt;
   /// mu = rho/rho0 - 1 and half the change of the relative volume, by entry - begin.

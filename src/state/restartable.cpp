@@ -107,7 +107,7 @@ std::vector<std::pair<std::string, Restartable*>> restartables_of(const World& w
   return out;
 }
 
-bool keep_world(World& world, Archive& archive) {
+void keep_world(World& world, Archive& archive) {
   Particles& p = world.particles;
   const Index known = archive.loading() ? particles_to_load(p, archive) : p.size();
   keep_fields("particles", p.fields, known, archive);
@@ -122,8 +122,6 @@ bool keep_world(World& world, Archive& archive) {
   if (archive.loading()) check_world(world, archive);
   archive("counters", world.counters);
   archive("maxima", world.maxima);
-  for (Index i = known; i < p.size(); ++i) p.x.add(i, p.v.vec(i) * p.dormant_time);
-  return known < p.size();
 }
 
 void keep_clock(Clock& clock, Archive& archive) {

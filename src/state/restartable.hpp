@@ -27,9 +27,8 @@ struct Restartable {
 std::vector<std::pair<std::string, Restartable*>> restartables_of(const World& world);
 
 /// Fields that a restart needs, particle groups, ledger, counters and maxima. Loading throws RestartError
-/// where the state is that of another world. Loading returns true where particles that wait at inlets follow
-/// behind those of the state: then the next step must sort.
-bool keep_world(World& world, Archive& archive);
+/// where the state is that of another world.
+void keep_world(World& world, Archive& archive);
 void keep_clock(Clock& clock, Archive& archive);
 
 }  // namespace courant

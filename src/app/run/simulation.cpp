@@ -76,6 +76,7 @@ std::unique_ptr<Simulation> Simulation::from_read_deck(const std::string& deck_p
   s->deck_ = std::move(deck);
   s->record_ = record_deck(s->deck_), s->world_.goes_on = before != nullptr;
   if (before) s->changes_ = compare_decks(*before, s->deck_, s->record_, diagnostics);
+  sort_mesh_cards(s->deck_);
   s->model_ = build_model(s->deck_, diagnostics, phase);
   if (!holds_places(deck_path, s->model_, diagnostics)) return nullptr;
   s->unit_facts_ = gather_unit_facts(s->deck_);

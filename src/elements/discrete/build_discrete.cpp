@@ -42,15 +42,19 @@ class DiscreteReader {
   }
 
   void add_masses() {
-    std::vector<std::pair<Index, Real>> masses;
-    std::vector<Id> ids;
+    struct Lumped {
+      Id id;
+      Index node;
+      Real mass;
+    };
+    std::vector<Lumped> masses;
     std::map<Id, const Entry*> known;
     const auto add = [&](const ElementMassCard& card, const std::vector<Index>& nodes) {
       is_new(known, card, card.eid, "mass element");
       for (const Index n : nodes) {
         const Index in_world = node(card, "NID", n);
         if (in_world < 0) return;
-        masses.emplace_back(in_world, card.mass), ids.push_back(card.eid);
+        masses.push_back({card.eid, in_world, card.mass});
       }
     };
     for (const ElementMassCard& card : deck_.all<ElementMassCard>())
@@ -66,16 +70,17 @@ class DiscreteReader {
     if (!model_.inertias.empty()) NodalRotations(world_.nodes.fields);
     for (const ModelInertia& one : model_.inertias)
       if (const Index n = node(one.card, "NID", one.node); n >= 0 && one.mass > 0)
-        masses.emplace_back(n, one.mass), ids.push_back(one.id);
+        masses.push_back({one.id, n, one.mass});
     if (masses.empty()) return;
+    std::stable_sort(masses.begin(), masses.end(),
+                     [](const Lumped& a, const Lumped& b) { return a.id < b.id; });
     FieldSet& set = world_.add_set("lumped masses");
     set.resize(static_cast<Index>(masses.size()));
     ElementGroup& group = *world_.groups.emplace_back(std::make_unique<ElementGroup>(set, no_part, 1));
     for (Index e = 0; e < group.size(); ++e) {
-      const auto& [n, m] = masses[static_cast<std::size_t>(e)];
-      group.id[e] = ids[static_cast<std::size_t>(e)];
-      group.node[e] = n, group.mass[e] = m;
-      world_.nodes.m[n] += m;
+      const Lumped& one = masses[static_cast<std::size_t>(e)];
+      group.id[e] = one.id, group.node[e] = one.node, group.mass[e] = one.mass;
+      world_.nodes.m[one.node] += one.mass;
     }
   }
 
@@ -93,7 +98,9 @@ class DiscreteReader {
     std::vector<SpringPart> out;
     if (of_part.empty()) return out;
     const auto laws = find_spring_laws(deck_, model_, diagnostics_);
-    for (const auto& [index, cards] : of_part) {
+    for (auto& [index, cards] : of_part) {
+      std::stable_sort(cards.begin(), cards.end(),
+                       [](const auto* a, const auto* b) { return a->eid < b->eid; });
       SpringPart part;
       const ModelPart& model_part = model_.parts[static_cast<std::size_t>(index)];
       if (!read_part(model_part, *cards.front(), laws, part)) continue;

@@ -97,6 +97,10 @@ void ModelBuilder::build_parts() {
     if (!part.plies.empty()) part.mid = part.plies.front().mid;  // of a rigid part that of all
     check_plies(card, part.plies, fmt::format("part {}", part.id));
   }
+  std::sort(model_.parts.begin(), model_.parts.end(),
+            [](const ModelPart& a, const ModelPart& b) { return a.id < b.id; });
+  for (std::size_t k = 0; k < model_.parts.size(); ++k)
+    model_.part_of_id[model_.parts[k].id] = static_cast<Index>(k);
 }
 
 void ModelBuilder::check_part_contacts() {

@@ -27,6 +27,21 @@ struct MovingShape {
   }
 };
 
+/// Rounds a product by itself. Else compilers fuse it with the addition that follows in some variants
+/// of a loop and not in others, and last bits depend on which one runs. The baseline has no fused operation.
+COURANT_INLINE void round_here([[maybe_unused]] Pack& product) {
+#if COURANT_SIMD_BYTES == 64
+  for (Native& part : product.part) asm("" : "+v"(part));
+#elif COURANT_SIMD_BYTES == 32
+  for (Native& part : product.part) asm("" : "+x"(part));
+#endif
+}
+template <int Dim>
+COURANT_INLINE void round_here(Difference<Dim>& product) {
+  round_here(product.x), round_here(product.y);
+  if constexpr (Dim == 3) round_here(product.z);
+}
+
 /// Whether entry k, of pairs of r2, may be left out: none of the eight has it within its support.
 template <bool UniformH, class Kernel>
 COURANT_INLINE bool is_beyond(const Kernel& kernel, const PairArrays& a, const Pack& hi, std::ptrdiff_t j,
@@ -196,6 +211,7 @@ void forces(const PairArrays& arrays, const PairLists& all_lists) {
             },
             d);
       }
+      round_here(pair);
       push.add(pair);
       const Pack dp = Diffusion ? a.p[j] - pi : Pack::zero(),
                  dphi = Diffusion ? a.potential[j] - potential : Pack::zero();

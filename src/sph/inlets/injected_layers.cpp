@@ -204,6 +204,26 @@ int dimension(const Deck& deck, const Entry& inlet, Diagnostics& diagnostics) {
   return 0;
 }
 
+/// Sets waiting particles to start + v t: the position does not depend, not even in the
+/// last bits, on when it woke.
+class WaitingMotion : public Motion {
+ public:
+  explicit WaitingMotion(const Field<Real>& start) : start_(start) {}
+  std::string name() const override { return "motion of particles that wait"; }
+  void declare(const World& world, Accesses& a) const override {
+    const Particles& p = world.particles;
+    a.reads(start_).reads(p.state).reads(p.v).revises(p.x);
+  }
+  void block(World& world, const Clock& clock, Index begin, Index end) override {
+    Particles& p = world.particles;
+    for (Index i = std::max(begin, p.active); i < end; ++i)
+      if (p.state[i] == particle_waiting) p.x.set(i, start_.vec(i) + p.v.vec(i) * (clock.t + clock.dt));
+  }
+
+ private:
+  const Field<Real>& start_;
+};
+
 }  // namespace
 
 Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& diagnostics) {
@@ -247,14 +267,17 @@ void make_injected_wait(const Injections& injections, World& world, Neighbours& 
   if (injections.inlets.empty()) return;
   Particles& p = world.particles;
   auto& inlet = shared_fields::inlet.add(p.fields);
+  auto& start = p.fields.add<Real>({.name = "start", .dimension = "L", .components = 3});
   for (std::size_t k = 0; k < injections.inlet_of.size(); ++k) {
     const Index i = injections.first + static_cast<Index>(k);
     inlet[i] = injections.inlet_of[k];
     p.state[i] = particle_waiting;
+    start.set(i, p.x.vec(i));
   }
+  world.passes.add(std::make_shared<WaitingMotion>(start));
   std::vector<InletPlane> planes;
   for (const Injection& one : injections.inlets) planes.push_back(one.plane);
-  neighbours.set_inlets(std::move(planes), inlet);
+  neighbours.set_inlets(std::move(planes), inlet, start);
 }
 
 void set_inlet_pressures(const Injections& injections, const Deck& deck, const Model& model,

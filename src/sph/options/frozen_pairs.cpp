@@ -53,7 +53,7 @@ void FrozenPairs::prepare(const PairArrays& a) {
   blocks_.resize(static_cast<std::size_t>(neighbours_->blocks()));
   shape_.ahead = window.ahead();
   shape_.norm = -gradient_norm(kernel_, dim_, a.h0) / shape_.scale;
-  shape_.mV = a.m[0] * a.V[0];
+  shape_.mV = std::exp2(std::floor(std::log2(a.m[0] * a.V[0])));  // the same bits whichever particle gives it
 }
 
 FrozenLists FrozenPairs::lists(Index begin, Index end) {

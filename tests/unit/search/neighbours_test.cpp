@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <random>
 #include <set>
 
 #include "../sph/cloud.hpp"
@@ -365,4 +367,43 @@ TEST(Neighbours, SortEveryFieldTheSameWay) {
     EXPECT_EQ(p.x.vec(i), places[p.id[i]]);
   }
   EXPECT_TRUE(moved);
+}
+
+// Whatever stood before: what lists were built at another time, and in which order particles were given.
+TEST(Neighbours, OrderFollowsFromPositionsAndIdsAlone) {
+  for (const int dim : {2, 3})
+    for (const bool box : {false, true}) {
+      const int n = dim == 2 ? 25 : 9;
+      std::vector<std::vector<Id>> orders, lists;
+      for (const bool shuffle : {false, true}) {
+        Cloud cloud(dim, n, 0.01, 0.4);
+        if (box)
+          cloud.neighbours = std::make_shared<Neighbours>(0.003, Region{Vec(0.03, -1, -1), Vec(1, 1, 1)});
+        Particles& p = cloud.world.particles;
+        if (shuffle) {
+          std::vector<Index> order(static_cast<std::size_t>(p.size()));
+          std::iota(order.begin(), order.end(), 0);
+          std::shuffle(order.begin(), order.end(), std::mt19937(3));
+          p.fields.permute(order);
+          cloud.refresh();
+          for (Index i = 0; i < p.size(); ++i) {  // a quarter of a turn, and back
+            const Vec x = p.x.vec(i);
+            p.v.set(i, x);
+            p.x.set(i, Vec(0.01 * n - x[1], x[0], x[2]));
+          }
+          cloud.neighbours->force_refresh();
+          cloud.refresh();
+          for (Index i = 0; i < p.size(); ++i) p.x.set(i, p.v.vec(i)), p.v.set(i, Vec::Zero());
+          p.moving = p.size();
+          cloud.neighbours->force_refresh();
+        }
+        cloud.refresh();
+        orders.emplace_back(p.id.data(), p.id.data() + p.moving);
+        std::vector<Id>& list = lists.emplace_back();
+        for (Index g = 0; g * Neighbours::lanes < p.active; ++g)
+          for (const Index j : cloud.neighbours->listed(g)) list.push_back(p.id[j]);
+      }
+      EXPECT_EQ(orders[0], orders[1]);
+      EXPECT_EQ(lists[0], lists[1]);
+    }
 }
