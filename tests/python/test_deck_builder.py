@@ -48,6 +48,37 @@ def test_arguments_without_a_meaning_are_refused() -> None:
     assert deck.card("*PART", [1, True, None]).text().splitlines()[-4] == "1,1,,"
 
 
+def test_meshes_are_joined_where_their_points_coincide() -> None:
+    def ring(u: np.ndarray) -> np.ndarray:
+        return np.column_stack([np.cos(2 * np.pi * u[:, 0]), np.sin(2 * np.pi * u[:, 0]), u[:, 1]])
+
+    closed = courant.join(courant.grid([8, 2], ring))
+    assert len(closed.points) == 8 * 3 and len(closed.cells) == 16 and np.all(np.bincount(closed.cells.ravel()) >= 2)
+    two = courant.join(courant.grid([1, 1, 1], [1, 1, 1]), courant.grid([1, 1, 1], lambda u: u + [1, 0, 0]))
+    assert len(two.points) == 12 and len(set(two.cells[0]) & set(two.cells[1])) == 4
+    assert np.allclose(np.ptp(two.points[two.cells[1]], axis=0), 1)
+
+
+def test_forces_are_shared_and_grow_until_a_third_of_the_end() -> None:
+    deck = courant.DeckBuilder("load", 1.0).settle(2.0)
+    assert deck.end == 9.0
+    deck.load(np.array([3, 4]), 2, 8.0, np.array([1.0, 3.0]))
+    assert "3,2,90,2.0," in deck.text() and "4,2,90,6.0," in deck.text() and "3.0,1.0," in deck.text() and "0,4.0," in deck.text()
+
+
+@needs_program
+def test_particles_weigh_and_press_as_given(tmp_path: Path) -> None:
+    deck = courant.DeckBuilder("drop", 1e-4)
+    deck.card("*PART", "water", [1, 1, 1, 1]).card("*SECTION_SPH", [1, 1.2]).card("*MAT_NULL", [1, 1000.0]).card("*EOS_LINEAR_POLYNOMIAL", [1, 0.0, 1e5])
+    deck.card("*CONTROL_SPH", [1, 0, 1e20, 2]).card("*DATABASE_MATSUM", [1e-5]).card("*DATABASE_BINARY_D3PLOT", [1e-4])
+    points = np.array([[0.1 * i, 0.1 * j, 0.0] for i in range(4) for j in range(4)])
+    ids = deck.particles(1, points, 10.0, np.arange(16.0))
+    assert sorted(ids) == list(range(1, 17))
+    run = courant.run(deck.write(tmp_path / "drop.k"), tmp_path / "run", quiet=True)
+    first = run.states[0]
+    assert np.isclose(run.histories["parts/1/mass"][0], 160) and np.allclose(np.sort(first["pressure"]), np.arange(16.0), atol=1e-6)
+
+
 @needs_program
 def test_a_deck_runs(tmp_path: Path) -> None:
     """A bar that flies; a value alone on its card has more digits than a column."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from .optional import lazily
 
 if TYPE_CHECKING:
-    from .deck.builder import DeckBuilder, grid
+    from .deck.builder import DeckBuilder, grid, join
     from .deck.deck import Deck
     from .diagnostics import CourantError
     from .previewing import preview
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from .tables import Table
     from .units import Units
 
-__all__ = ["CourantError", "Deck", "DeckBuilder", "LiveState", "Results", "Run", "RunFailed", "Scene", "Steps", "Table", "Units", "check", "grid", "open", "preview", "run", "steps", "sweep"]
+__all__ = ["CourantError", "Deck", "DeckBuilder", "LiveState", "Results", "Run", "RunFailed", "Scene", "Steps", "Table", "Units", "check", "grid", "join", "open", "preview", "run", "steps", "sweep"]
 # so that the calls start before numpy is there, and can tell where it is missing
-__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".deck.builder": ["DeckBuilder", "grid"], ".deck.deck": ["Deck"], ".results": ["Results", "open"],
+__getattr__ = lazily(__name__, {".diagnostics": ["CourantError"], ".deck.builder": ["DeckBuilder", "grid", "join"], ".deck.deck": ["Deck"], ".results": ["Results", "open"],
                                 ".running": ["Run", "RunFailed", "check", "run"], ".live": ["LiveState"], ".scene.scene": ["Scene"], ".stepping": ["Steps", "steps"],
                                 ".previewing": ["preview"], ".sweeping": ["sweep"], ".tables": ["Table"], ".units": ["Units"]})

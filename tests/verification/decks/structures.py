@@ -1,14 +1,11 @@
-"""Decks of structures.yaml: structures whose answer is known, by any element.
+"""Decks of structures.yaml and structures_large.yaml: structures whose answer is known, by any element.
 
 Loads that stay are put on along a smooth curve in a third of the time, with damping near that of the lowest frequency, so that the end is at rest.
 """
 from __future__ import annotations
 
 import numpy as np
-from courant import DeckBuilder, grid
-
-SETTLING = 12.0  # periods over 2 pi until critical damping has left 1e-4 of a motion
-
+from courant import DeckBuilder, grid, join
 
 def section(deck: DeckBuilder, kind: str, elform: int, thickness: float, nip: int) -> None:
     if kind == "SHELL":
@@ -22,22 +19,6 @@ def part(deck: DeckBuilder, title: str, ihq: int, qm: float) -> None:
     deck.card("*PART", title, [1, 1, 1, 0, 1 if ihq else 0])
     if ihq:
         deck.card("*HOURGLASS", [1, ihq, qm])
-
-
-def settle(deck: DeckBuilder, omega: float, number: int = 90) -> float:
-    """Damping of a structure of lowest frequency `omega` [1/T], and a curve (its number) that rises smoothly to 1. Gives the end [T]."""
-    end = 1.5 * SETTLING / omega
-    t = np.linspace(0, end / 3, 21)
-    deck.curve(number, [*((float(a), 0.5 - 0.5 * float(np.cos(np.pi * a / t[-1]))) for a in t), (2 * end, 1.0)])
-    deck.card("*DAMPING_GLOBAL", [0, 2 * omega])
-    deck.end = end
-    return end
-
-
-def load(deck: DeckBuilder, nodes: np.ndarray, direction: int, force: float, weights: np.ndarray | None = None) -> None:
-    """A force in all, shared by nodes, by curve 90; `direction`: 1, 2, 3."""
-    share = np.full(len(nodes), 1 / len(nodes)) if weights is None else weights / weights.sum()
-    deck.card("*LOAD_NODE_POINT", *([int(n), direction, 90, float(force * w)] for n, w in zip(nodes, share)))
 
 
 def of_an_edge(n: int) -> np.ndarray:
@@ -72,9 +53,9 @@ def cantilever(n: int = 16, kind: str = "SOLID", elform: int = 1, ihq: int = 0, 
         ids = deck.mesh(kind, 1, mesh, [mesh.nearest(1, 0.5, 0.5)])
         clamped, end, weights = ids[mesh.where(0, 0)], ids[mesh.where(0, 1)], np.outer(of_an_edge(across), of_an_edge(across)).ravel()
     deck.hold(clamped, "xyzXYZ" if kind != "SOLID" else "xyz")
-    finish = settle(deck, omega)
-    load(deck, end, 3, P, weights)
-    return deck.history([1], finish / 200)
+    deck.settle(omega)
+    deck.load(end, 3, P, weights)
+    return deck.history([1], deck.end / 200)
 
 
 def cook(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
@@ -92,9 +73,9 @@ def cook(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int =
     ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(1, 0.5)])
     clamped = mesh.where(0, 0)
     deck.hold(ids, "zXY").hold(ids[clamped], "xyZ")
-    end = settle(deck, 0.011)
-    load(deck, ids[mesh.where(0, 1)], 2, 1e-3, of_an_edge(n))
-    return deck.history([1], end / 200)
+    deck.settle(0.011)
+    deck.load(ids[mesh.where(0, 1)], 2, 1e-3, of_an_edge(n))
+    return deck.history([1], deck.end / 200)
 
 
 def roof(n: int = 8, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
@@ -107,9 +88,9 @@ def roof(n: int = 8, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 
     mesh = grid([n, n], lambda u: np.column_stack([R * np.sin(angle * u[:, 0]), 0.5 * L * u[:, 1], R * np.cos(angle * u[:, 0])]))
     ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(1, 1)])
     deck.hold(ids[mesh.where(1, 0)], "xz").hold(ids[mesh.where(1, 1)], "yXZ").hold(ids[mesh.where(0, 0)], "xYZ")
-    end = settle(deck, 1.8)
+    deck.settle(1.8)
     deck.card("*LOAD_BODY_Z", [90, 0.9 / (rho * t)])  # acts along -z
-    return deck.history([1], end / 200)
+    return deck.history([1], deck.end / 200)
 
 
 def hemisphere(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
@@ -129,10 +110,10 @@ def hemisphere(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc:
     deck.hold(ids[mesh.where(0, 0)], "yXZ").hold(ids[mesh.where(0, 1)], "xYZ")
     first, second = ids[mesh.nearest(0, 0)], ids[mesh.nearest(1, 0)]
     deck.hold(np.array([ids[mesh.nearest(0.5, 1)]]), "z")
-    end = settle(deck, 2.3)
-    load(deck, np.array([first]), 1, 1.0)
-    load(deck, np.array([second]), 2, -1.0)
-    return deck.history([1, 2], end / 200)
+    deck.settle(2.3)
+    deck.load(np.array([first]), 1, 1.0)
+    deck.load(np.array([second]), 2, -1.0)
+    return deck.history([1, 2], deck.end / 200)
 
 
 def twisted(n: int = 24, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, direction: int = 3) -> DeckBuilder:
@@ -152,10 +133,10 @@ def twisted(n: int = 24, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm:
     mesh = grid([n, across] if kind == "SHELL" else [n, across, 2], mapped)
     ids = deck.mesh(kind, 1, mesh, [mesh.nearest(*([1, 0.5] if kind == "SHELL" else [1, 0.5, 0.5]))])
     deck.hold(ids[mesh.where(0, 0)], "xyzXYZ" if kind == "SHELL" else "xyz")
-    end = settle(deck, 10.0)
+    deck.settle(10.0)
     edge = of_an_edge(across)
-    load(deck, ids[mesh.where(0, 1)], direction, 1.0, edge if kind == "SHELL" else np.outer(of_an_edge(2), edge).ravel())
-    return deck.history([1], end / 200)
+    deck.load(ids[mesh.where(0, 1)], direction, 1.0, edge if kind == "SHELL" else np.outer(of_an_edge(2), edge).ravel())
+    return deck.history([1], deck.end / 200)
 
 
 def plate(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, a: float = 1.0, h: float = 0.01, E: float = 2.1e11, rho: float = 7850.0,
@@ -208,8 +189,174 @@ def tube(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1, nu: float =
     mesh = grid([n, 2 * n, 1], mapped)
     ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(0, 0, 0)])
     deck.hold(ids, "z").hold(ids[mesh.where(1, 0)], "y").hold(ids[mesh.where(1, 1)], "x")
-    end = settle(deck, float(np.sqrt(E / rho) / b))
+    deck.settle(float(np.sqrt(E / rho) / b))
     inner = [ids[cell[[0, 4, 7, 3]]] for cell in mesh.cells if mesh.unit[cell[0], 0] < 1e-9]
     deck.card("*SET_SEGMENT", [1], *([int(k) for k in corners] for corners in inner))
     deck.card("*LOAD_SEGMENT_SET", [1, 90, p])
-    return deck.history([1], end / 200)
+    return deck.history([1], deck.end / 200)
+
+
+def pinched(n: int = 8, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2) -> DeckBuilder:
+    """An eighth of a cylinder on diaphragms that two opposite unit forces pinch in its middle."""
+    R, L, h, rho = 300.0, 600.0, 3.0, 1.0
+    deck = DeckBuilder("pinched cylinder", 1)
+    section(deck, "SHELL", elform, h, 2)
+    part(deck, "cylinder", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, 3e6, 0.3]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh = grid([n, n], lambda u: np.column_stack([R * np.sin(0.5 * np.pi * u[:, 0]), 0.5 * L * u[:, 1], R * np.cos(0.5 * np.pi * u[:, 0])]))
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(0, 1)])
+    deck.hold(ids[mesh.where(1, 0)], "xz").hold(ids[mesh.where(1, 1)], "yXZ").hold(ids[mesh.where(0, 0)], "xYZ").hold(ids[mesh.where(0, 1)], "zXY")
+    deck.settle(0.68)
+    deck.load(ids[[mesh.nearest(0, 1)]], 3, -0.25)
+    return deck.history([1], deck.end / 200)
+
+
+def elastica(n: int = 8, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, L: float = 1.0, h: float = 0.02, E: float = 2e9,
+             rho: float = 1000.0, load: float = 10.0) -> DeckBuilder:
+    """A thin cantilever that a force at its end bends by more than its length; P L^2/(E I) = `load`."""
+    deck = DeckBuilder("elastica", 1)
+    part(deck, "strip", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    if kind == "BEAM":
+        deck.card("*SECTION_BEAM", [1, elform, 5 / 6, 2, 0], [h] * 4 if elform == 1 else [h * h, h**4 / 12, h**4 / 12, 0.1406 * h**4, 5 / 6 * h * h])
+        mesh = grid([n], [L])
+        ids = deck.nodes(mesh.points, [n])
+        third = deck.nodes(np.array([[0.5 * L, L, 0]]))
+        deck.elements("BEAM", 1, np.column_stack([ids[mesh.cells], np.full(n, third[0])]))
+        weights = None
+    else:
+        section(deck, kind, elform, h, 2)
+        mesh = grid([n, 1] if kind == "SHELL" else [4 * n, 1, 2], lambda u: np.column_stack([L * u[:, 0], h * (u[:, 1] - 0.5), h * (u[:, 2] - 0.5) if kind == "SOLID" else 0 * u[:, 0]]))
+        ids = deck.mesh(kind, 1, mesh, [mesh.nearest(*([1, 0] if kind == "SHELL" else [1, 0, 0.5]))])
+        weights = None if kind == "SHELL" else np.outer([0.5, 1, 0.5], [1, 1]).ravel()
+    deck.hold(ids[mesh.where(0, 0)], "xyz" if kind == "SOLID" else "xyzXYZ")
+    deck.settle(3.516 * np.sqrt(E * h**2 / 12 / rho) / L**2)
+    deck.load(ids[mesh.where(0, 1)], 3, load * E * h**4 / 12 / L**2, weights)
+    return deck.history([1], deck.end / 200)
+
+
+def membrane(n: int = 8, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, a: float = 1.0, h: float = 0.01, E: float = 2.1e11, rho: float = 7850.0,
+             nu: float = 0.3, q: float = 5e4) -> DeckBuilder:
+    """A quarter of a clamped disc that a pressure bends by more than its thickness, so that it is stretched, too."""
+    deck = DeckBuilder("disc under pressure", 1)
+    section(deck, "SHELL", elform, h, 2)
+    part(deck, "disc", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, nu]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        x, y = u[:, 0], u[:, 1]
+        return a * np.column_stack([x * np.sqrt(1 - y**2 / 2), y * np.sqrt(1 - x**2 / 2), 0 * x])
+
+    mesh = grid([n, n], mapped)
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(0, 0)])
+    deck.hold(ids[mesh.where(0, 0)], "xYZ").hold(ids[mesh.where(1, 0)], "yXZ").hold(ids[np.union1d(mesh.where(0, 1), mesh.where(1, 1))], "xyzXYZ")
+    deck.settle(10.21 * np.sqrt(E * h**2 / 12 / (1 - nu**2) / rho) / a**2)
+    deck.card("*SET_SHELL_LIST", [1], *([*range(k, min(k + 8, n * n + 1))] for k in range(1, n * n + 1, 8))).card("*LOAD_SHELL_SET", [1, 90, -q])
+    return deck.history([1], deck.end / 200)
+
+
+def column(n: int = 8, kind: str = "BEAM", elform: int = 1, ihq: int = 0, qm: float = 0.1, bwc: int = 2, L: float = 1.0, h: float = 0.02, E: float = 2.1e11,
+           rho: float = 7850.0, part_of_euler: float = 0.75) -> DeckBuilder:
+    """A column on hinges that swings under a share of Euler's load, which makes it slower."""
+    omega = np.pi**2 * np.sqrt(E * h**2 / 12 / rho) / L**2
+    deck = DeckBuilder("column", 2.4 * 2 * np.pi / omega / np.sqrt(1 - part_of_euler))
+    part(deck, "column", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    if kind == "BEAM":
+        deck.card("*SECTION_BEAM", [1, elform, 5 / 6, 2, 0], [h] * 4 if elform == 1 else [h * h, h**4 / 12, h**4 / 12, 0.1406 * h**4, 5 / 6 * h * h])
+        mesh = grid([n], [L])
+        ids = deck.nodes(mesh.points, [mesh.nearest(0.5)])
+        third = deck.nodes(np.array([[0.5 * L, L, 0]]))
+        deck.elements("BEAM", 1, np.column_stack([ids[mesh.cells], np.full(n, third[0])]))
+        deck.hold(ids, "yXZ")
+    else:
+        section(deck, kind, elform, h, 2)
+        mesh = grid([n, 1], lambda u: np.column_stack([L * u[:, 0], h * (u[:, 1] - 0.5), 0 * u[:, 0]]))
+        ids = deck.mesh(kind, 1, mesh, [mesh.nearest(0.5, 0)])
+    deck.hold(ids[mesh.where(0, 0)], "xyz").hold(ids[mesh.where(0, 1)], "yz")
+    deck.curve(90, [(0.0, 1.0), (1e6, 1.0)])
+    deck.load(ids[mesh.where(0, 1)], 1, -part_of_euler * np.pi**2 * E * h**4 / 12 / L**2)
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.0, 0.0, float(1e-3 * L * omega * np.sin(np.pi * u))] for i, u in zip(ids, mesh.unit[:, 0])))
+    return deck.history([1], deck.end / 400)
+
+
+def torsion(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, R: float = 0.1, L: float = 0.4, h: float = 0.002, E: float = 2.1e11,
+            rho: float = 7850.0, nu: float = 0.3, M: float = 1e3) -> DeckBuilder:
+    """A thin round tube, clamped at one end and twisted by a moment M at the other; n shells around."""
+    deck = DeckBuilder("tube in torsion", 1)
+    section(deck, "SHELL", elform, h, 2)
+    part(deck, "tube", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, nu]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh = join(grid([n, int(round(n * L / (2 * np.pi * R)))],
+                     lambda u: np.column_stack([R * np.cos(2 * np.pi * u[:, 0]), R * np.sin(2 * np.pi * u[:, 0]), L * u[:, 1]])))
+    ids = deck.mesh("SHELL", 1, mesh, [int(np.argmin(np.linalg.norm(mesh.points - [R, 0, L], axis=1)))])
+    deck.hold(ids[mesh.where(1, 0)], "xyzXYZ")
+    deck.settle(float(0.5 * np.pi * np.sqrt(E / (2 + 2 * nu) / rho) / L))
+    end = mesh.where(1, 1)
+    for axis, across in ((1, -mesh.points[end, 1]), (2, mesh.points[end, 0])):
+        rows = [[int(i), axis, 90, float(M / R / n * c / R)] for i, c in zip(ids[end], across) if abs(c) > 1e-9]
+        deck.card("*LOAD_NODE_POINT", *rows)
+    return deck.history([1], deck.end / 200)
+
+
+def spin(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1, R: float = 0.1, h: float = 0.01, E: float = 2.1e11, rho: float = 7850.0, nu: float = 0.3,
+         omega: float = 3000.0) -> DeckBuilder:
+    """A free disc that spins and swings about the radius to which its own weight draws it."""
+    c = np.sqrt(E / rho / (1 - nu**2))
+    deck = DeckBuilder("spinning disc", 40 * R / c)
+    section(deck, "SOLID", elform, 0, 0)
+    part(deck, "disc", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, nu])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        x, y = 2 * u[:, 0] - 1, 2 * u[:, 1] - 1
+        return np.column_stack([R * x * np.sqrt(1 - y**2 / 2), R * y * np.sqrt(1 - x**2 / 2), h * (u[:, 2] - 0.5)])
+
+    mesh = grid([n, n, 1], mapped)
+    ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(1, 0.5, 0)])
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), float(-omega * y), float(omega * x), 0.0] for i, (x, y, _) in zip(ids, mesh.points)))
+    return deck.history([1], deck.end / 400)
+
+
+def rubber(n: int = 4, elform: int = 1, ihq: int = 0, qm: float = 0.1, a: float = 1.0, b: float = 1.5, mu: float = 1e6, nu: float = 0.499, stretch: float = 1.3,
+           rho: float = 1000.0) -> DeckBuilder:
+    """A hollow sphere of rubber (neo-Hooke) under the pressure that stretches its inside by `stretch`, if it is incompressible; six caps of n x n x n/2 solids."""
+    deck = DeckBuilder("sphere of rubber", 1)
+    section(deck, "SOLID", elform, 0, 0)
+    part(deck, "sphere", ihq, qm)
+    deck.card("*MAT_MOONEY-RIVLIN_RUBBER", [1, rho, nu, mu / 2, 0.0])
+    out = np.cbrt(1 + (a / b) ** 3 * (stretch**3 - 1))
+    p = mu * ((2 / out + 1 / (2 * out**4)) - (2 / stretch + 1 / (2 * stretch**4)))
+
+    def cap(axis: int, side: int):
+        def mapped(u: np.ndarray) -> np.ndarray:
+            v = np.empty((len(u), 3))
+            v[:, axis], v[:, (axis + 1) % 3], v[:, (axis + 2) % 3] = side, (2 * u[:, 0] - 1) * side, 2 * u[:, 1] - 1
+            v = np.tan(0.25 * np.pi * v)
+            return v / np.linalg.norm(v, axis=1, keepdims=True) * (a + (b - a) * u[:, 2:])
+        return grid([n, n, max(n // 2, 1)], mapped)
+
+    mesh = join(*(cap(axis, side) for axis in range(3) for side in (-1, 1)))
+    ids = deck.mesh("SOLID", 1, mesh, [int(np.argmin(np.linalg.norm(mesh.points - [a, 0, 0], axis=1)))])
+    for axis in range(3):  # nodes on the axes keep to them; n is even
+        others = np.linalg.norm(np.delete(mesh.points, axis, axis=1), axis=1)
+        deck.hold(ids[others < 1e-9], "xyz".replace("xyz"[axis], ""))
+    deck.settle(float(np.sqrt(mu / rho) / b))
+    inside = np.linalg.norm(mesh.points, axis=1) < a + 1e-9
+    faces = [cell[[0, 3, 2, 1]] for cell in mesh.cells if inside[cell].sum() == 4]
+    deck.card("*SET_SEGMENT", [1], *([int(ids[k]) for k in face] for face in faces)).card("*LOAD_SEGMENT_SET", [1, 90, float(p)])
+    return deck.history([1], deck.end / 200)
+
+
+def wave(n: int = 50, elform: int = 1, ihq: int = 0, qm: float = 0.1, q1: float = 1.5, q2: float = 0.06, L: float = 1.0, h: float = 0.02, E: float = 2.1e11,
+         rho: float = 7850.0, SIGY: float = 4e8, ETAN: float = 2.1e10, v0: float = 30.0, T: float = 1.5e-4) -> DeckBuilder:
+    """A thin bar strikes a rigid wall; an elastic wave runs ahead of a plastic one."""
+    deck = DeckBuilder("plastic wave", T)
+    section(deck, "SOLID", elform, 0, 0)
+    part(deck, "bar", ihq, qm)
+    deck.card("*MAT_PLASTIC_KINEMATIC", [1, rho, E, 0.0, SIGY, ETAN, 1.0]).card("*CONTROL_BULK_VISCOSITY", [q1, q2, 1])
+    mesh = grid([n, 1, 1], [L, h, h])
+    ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(1, 0, 0)])
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), -v0, 0.0, 0.0] for i in ids)).card("*RIGIDWALL_PLANAR", [0], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0])
+    deck.card("*DATABASE_MATSUM", [T / 300])
+    return deck.history([1], T / 300)

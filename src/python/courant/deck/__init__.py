@@ -1,5 +1,5 @@
 """Keyword decks in Python: read, changed and written back, with comments and order as they are; and made of meshes and cards."""
-from .builder import DeckBuilder, Grid, grid
+from .builder import DeckBuilder, Grid, grid, join
 from .deck import Deck
 
-__all__ = ["Deck", "DeckBuilder", "Grid", "grid"]
+__all__ = ["Deck", "DeckBuilder", "Grid", "grid", "join"]

@@ -57,6 +57,15 @@ def grid(counts: Sequence[int], to: Map | Sequence[float]) -> Grid:
     return Grid(points, cells, unit)
 
 
+def join(*grids: Grid) -> Grid:
+    """One mesh of several, or of one that closes: points nearer than 1e-7 of the whole are one."""
+    points, starts = np.concatenate([g.points for g in grids]), np.cumsum([0, *(len(g.points) for g in grids)])
+    key = np.round((points - points.min(axis=0)) / (1e-7 * np.ptp(points, axis=0).max())).astype(np.int64)
+    _, first, to = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    cells = np.concatenate([g.cells + start for g, start in zip(grids, starts)])
+    return Grid(points[first], to.ravel()[cells], np.concatenate([g.unit for g in grids])[first])
+
+
 def _text(value: Value) -> str:
     if value is None:
         return ""
@@ -125,6 +134,15 @@ class DeckBuilder:
         self.elements(kind, part, ids[of.cells])
         return ids
 
+    def particles(self, part: int, points: np.ndarray, masses: np.ndarray | float, pressures: np.ndarray | None = None) -> np.ndarray:
+        """Adds particles at positions (n, 3) [L] with their masses [M], of a plane flow per unit of depth, and pressures at the start, (n,) [M/LT2];
+        their numbers, (n,)."""
+        ids = self.nodes(points)
+        self.card("*ELEMENT_SPH", *([int(i), part, float(m)] for i, m in zip(ids, np.broadcast_to(masses, len(ids)))))
+        if pressures is not None:
+            self.card("*INITIAL_STRESS_SPH", *([int(i), *[-float(p)] * 3] for i, p in zip(ids, pressures)))
+        return ids
+
     def node_set(self, ids: np.ndarray) -> int:
         """Its number."""
         self._sets += 1
@@ -146,6 +164,19 @@ class DeckBuilder:
         """*DEFINE_CURVE; its number."""
         self.card("*DEFINE_CURVE", [number], *points)
         return number
+
+    def settle(self, omega: float, number: int = 90, periods: float = 12.0) -> DeckBuilder:
+        """Damping of a structure of lowest frequency `omega` [1/T], a curve (its number) that rises smoothly to 1 in a third of the time, and an end that
+        leaves 1e-4 of a motion."""
+        self.end = 1.5 * periods / omega
+        t = np.linspace(0, self.end / 3, 21)
+        self.curve(number, [*((float(a), 0.5 - 0.5 * float(np.cos(np.pi * a / t[-1]))) for a in t), (2 * self.end, 1.0)])
+        return self.card("*DAMPING_GLOBAL", [0, 2 * omega])
+
+    def load(self, ids: np.ndarray, direction: int, force: float, weights: np.ndarray | None = None, number: int = 90) -> DeckBuilder:
+        """A force in all [ML/T2], shared by nodes, along 1, 2 or 3, by a curve of this number."""
+        share = np.full(len(ids), 1 / len(ids)) if weights is None else weights / weights.sum()
+        return self.card("*LOAD_NODE_POINT", *([int(n), direction, number, float(force * w)] for n, w in zip(ids, share)))
 
     def history(self, ids: Sequence[int] | np.ndarray, interval: float) -> DeckBuilder:
         """Motion of nodes, energies and others at an interval [T]."""
