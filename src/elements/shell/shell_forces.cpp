@@ -154,7 +154,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   void finish(World& world, const Clock& clock) override {
     if (scaled_) scaled_->grow(world);
     for (const Index e : distorted_shell_)
-      if (e >= 0) stop_for_distortion(group_, part_id_, e, places_ > 1, clock);
+      if (e >= 0) stop_for_distortion(group_, part_id_, e, full(), clock);
     if (!control_.thins) return;
     for (Index e = 0; e < group_.size(); ++e)
       if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e)))
@@ -282,9 +282,10 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     erosion_->look(failing);
   }
 
+  bool full() const { return places_ > 1; }  ///< 2 x 2 points
   /// With 2 x 2 points one that is turned inwards has no meaning, whatever the deck asks for.
   bool may_distort() const {
-    return group_.corners() == 4 && (places_ > 1 || distorted_ != DistortedShells::stay);
+    return group_.corners() == 4 && (full() || distorted_ != DistortedShells::stay);
   }
   void look_at_distortion(Index begin, Index count, const ShellScratch& scratch) {
     Index& at = distorted_shell_[static_cast<std::size_t>(begin / block_size)];
@@ -298,7 +299,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     }
   }
   bool is_distorted(Index e, Index i, const ShellScratch& scratch) const {
-    if (places_ > 1)
+    if (full())
       return !(std::min({scratch.quarter_area[0][i], scratch.quarter_area[1][i], scratch.quarter_area[2][i],
                          scratch.quarter_area[3][i]}) > 0);
     std::array<Vec, 4> x;

@@ -13,7 +13,7 @@ using namespace courant;
 
 namespace {
 
-/// A law, with room for one point.
+/// A law, with the numbers of one point.
 struct BeamPoint {
   explicit BeamPoint(const StrengthLaw& of) : law(of) {
     for (const HistoryVariable& h : of.history()) {
