@@ -44,9 +44,8 @@ class CellGrid {
   Index place(Index x, Index row) const { return row * cells_[0] + (row & 1 ? cells_[0] - 1 - x : x); }
   /// Distance along an axis between low..high and layer k of cells; 0 where the layer at the border also
   /// holds what lies beyond it.
-  Real gap(Real low, Real high, Index k, int axis) const {
-    const Real size = 1 / inverse_[axis],
-               start = origin_[axis] + (first_[axis] + static_cast<Real>(k)) * size;
+  Real gap(Real low, Real high, Index k, Real size, int axis) const {
+    const Real start = origin_[axis] + (first_[axis] + static_cast<Real>(k)) * size;
     return std::max({start - high, low - start - size, Real(0)});
   }
 
@@ -58,12 +57,13 @@ class CellGrid {
 
 template <class Visit>
 void CellGrid::near(const Vec& low, const Vec& high, Real reach, const Visit& visit) const {
+  const Real width = 1 / inverse_[1];  // of a row, the same in y and z
   const Index z0 = at(low[2] - reach, 2), z1 = at(high[2] + reach, 2);
   const Index y0 = at(low[1] - reach, 1), y1 = at(high[1] + reach, 1);
   for (Index z = z0; z <= z1; ++z) {
-    const Real gz = gap(low[2], high[2], z, 2);
+    const Real gz = gap(low[2], high[2], z, width, 2);
     for (Index y = y0; y <= y1; ++y) {
-      const Real gy = gap(low[1], high[1], y, 1);
+      const Real gy = gap(low[1], high[1], y, width, 1);
       const Real left = reach * reach - gy * gy - gz * gz;
       if (left < 0) continue;
       const Real w = std::sqrt(left);

@@ -31,7 +31,8 @@ struct ParticleLoops {
   Index (*inside)(const Real low[3], const Real high[3], const Real* const x[3], Index begin, Index end);
 
   /// The box around particles, their extreme h, the sum of m/rho, each rounded to a multiple of `unit` so
-  /// that the sum is exact and does not depend on their order, and whether a position or h is no finite number.
+  /// that the sum is exact and does not depend on their order, and whether a position or h is no finite
+  /// number.
   struct Bounds {
     Real low[3], high[3], h_min, h_max, volume;
     bool broken;
