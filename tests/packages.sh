@@ -4,8 +4,9 @@
 #
 # usage: tests/packages.sh FOLDER_OF_PACKAGES   (that of cmake/packages.py)
 set -uo pipefail
-folder=$(cd "${1:?usage: tests/packages.sh FOLDER_OF_PACKAGES}" && pwd)
+folder=${1:?usage: tests/packages.sh FOLDER_OF_PACKAGES}
 package=$(find "$folder" -name 'courant_*.deb' | sort | tail -n 1)
+[ -n "$package" ] || { echo "there is no courant_*.deb in $folder: python3 cmake/packages.py deb makes one"; exit 1; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
