@@ -69,3 +69,61 @@ def strike(kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, stiffness:
     deck.card(f"*CONTACT_{kind}", [1, 2, 3, 3], [mu, mu], [scale, scale], [soft])
     deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.3 * v, 0.1 * v, -v] for i in first))
     return deck.history([1], deck.end / 400)
+
+
+def tie(kind: str = "SURFACE_TO_SURFACE", stiffness: float = 1.0, density: float = 1.0, scale: float = 1.0, mach: float = 0.01, steps: int = 2000) -> DeckBuilder:
+    """Two blocks that are tied, the second `stiffness` times as stiff and `density` times as dense, fly apart, askew, with `mach` times the smaller speed of sound."""
+    c, faster = np.sqrt(E / RHO), np.sqrt(max(1.0, stiffness / density))
+    deck = DeckBuilder("tied blocks", steps * 0.05 / c / faster * 0.5)
+    deck.card("*SECTION_SOLID", [1, 1]).card("*MAT_ELASTIC", [1, RHO, E, 0.3]).card("*MAT_ELASTIC", [2, RHO * density, E * stiffness, 0.3])
+    deck.card("*PART", "first", [1, 1, 1]).card("*PART", "second", [2, 1, 2]).card("*CONTROL_ENERGY", [2, 2, 2, 2])
+    first = deck.mesh("SOLID", 1, grid([4, 4, 4], lambda u: 0.2 * (u + [0, 0, 1])))
+    deck.mesh("SOLID", 2, grid([3, 3, 3], lambda u: 0.3 * u - [0.05, 0.05, 0.1]))
+    v = mach * c * min(1.0, np.sqrt(stiffness / density))
+    deck.card(f"*CONTACT_TIED_{kind}", [1, 2, 3, 3], [None], [scale, scale] if kind.endswith("FACE_OFFSET") else [None])
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.3 * v, 0.1 * v, v] for i in first))
+    return deck.history([1], deck.end / 400)
+
+
+def pendulums(joint: str = "REVOLUTE", mass: float = 1.0, slender: float = 1.0, tssfac: float = 0.9, L: float = 1.0, g: float = 9.81, turns: float = 1.0) -> DeckBuilder:
+    """Two pendulums on each other, the lower one `mass` times as heavy; a moment of inertia of L^2/100 times `slender` of their masses; they begin level."""
+    deck = DeckBuilder("two pendulums", turns * 2 * np.pi * np.sqrt(L / g))
+    deck.card("*SECTION_SOLID", [1, 1]).card("*CONTROL_TIMESTEP", [0, tssfac])
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]) - 0.5
+    for part, (x, m) in enumerate(((0.0, 1.0), (0.5 * L, 1.0), (1.5 * L, mass)), 1):
+        deck.elements("SOLID", part, deck.nodes(0.02 * L * cube + [x, 0, 0])[None, :])
+        J = 0.01 * slender * m * L**2
+        deck.card("*PART_INERTIA", "body", [part, 1, part], [x, 0.0, 0.0, m], [J, 0.0, 0.0, J, 0.0, J], [0.0] * 6)
+        deck.card("*MAT_RIGID", [part, 1000.0, 1e9, 0.3], [1, 7, 7] if part == 1 else [0], "")
+    for a, b, x in ((1, 2, 0.0), (2, 3, L)):
+        points = [np.array([x, 0, 0])] + ([np.array([x, 0.1 * L, 0])] if joint == "REVOLUTE" else [])
+        ids = []
+        for at in points:
+            ids += [int(k) for k in deck.nodes(np.array([at, at]))]
+            deck.card("*CONSTRAINED_EXTRA_NODES_NODE", [a, ids[-2]], [b, ids[-1]])
+        deck.card(f"*CONSTRAINED_JOINT_{joint}", ids)
+    deck.gravity(g)
+    deck.card("*DATABASE_RBDOUT", [deck.end / 400]).card("*DATABASE_GLSTAT", [deck.end / 400])
+    return deck
+
+
+def splash(density: float = 1.0, thickness: float = 0.5, stiffness: float = 1.0, soft: int = 0, scale: float = 10.0, mach: float = 0.05, tssfac: float = 0.9,
+           scheme: str = "cubic", dx: float = 0.01, c0: float = 50.0) -> DeckBuilder:
+    """A block of water, 8 x 8 particles, falls on a strip of shells that is clamped at both ends, in the plane. The shells are `density` times as dense as water,
+    `thickness` particles thick and E is `stiffness` times the bulk modulus of the water."""
+    deck = DeckBuilder("splash", 30 * 8 * dx / c0)
+    rho, h = 1000.0, thickness * dx
+    deck.card("*CONTROL_TIMESTEP", [0, tssfac]).card("*CONTROL_SPH", [1, 0, 1e20, 2]).card("*SECTION_SPH", [1, 1.2 if scheme == "cubic" else 2.0, 1.0, 1.0])
+    if scheme != "cubic":
+        deck.card("*COURANT_KERNEL", "wendland_c4")
+    deck.card("*PART", "water", [1, 1, 1, 1, 1]).card("*MAT_NULL", [1, rho]).card("*EOS_LINEAR_POLYNOMIAL", [1, 0.0, rho * c0**2])
+    deck.card("*HOURGLASS", [1, 0, 0.0, 0, 1e-20, 0.1]).card("*COURANT_DENSITY_DIFFUSION", [0.1])
+    deck.card("*PART", "strip", [2, 2, 2]).card("*SECTION_SHELL", [2, 2, 5 / 6, 3], [h] * 4).card("*MAT_ELASTIC", [2, rho * density, stiffness * rho * c0**2, 0.3])
+    mesh = grid([16, 1], lambda u: np.column_stack([16 * dx * u[:, 0], 0 * u[:, 0], u[:, 1] - 0.5]))
+    ids = deck.mesh("SHELL", 2, mesh, [mesh.nearest(0.5, 0)])
+    deck.hold(ids[np.union1d(mesh.where(0, 0), mesh.where(0, 1))], "xyzXYZ")
+    water = np.array([[(4.5 + i) * dx, 0.5 * h + (0.6 + j) * dx, 0.0] for j in range(8) for i in range(8)])
+    falling = deck.particles(1, water, rho * dx**2)
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.0, -mach * c0, 0.0] for i in falling))
+    deck.card("*CONTACT_AUTOMATIC_NODES_TO_SURFACE", [1, 2, 3, 3], [0.0], [scale, 1000.0, 0.9999 * dx], [soft])
+    return deck.history([1], deck.end / 400)
