@@ -15,19 +15,25 @@ using C = ContactCard;
 constexpr Honour no = Honour::no, ignored = Honour::ignored, output_only = Honour::output_only;
 
 /// In the order of the names.
-constexpr ContactKind kinds[] = {{.nodes = true},
-                                 {.single = true},
-                                 {.two_way = true},
-                                 {},
-                                 {.single = true, .edges = true},
-                                 {.automatic = false, .nodes = true},
-                                 {.automatic = false, .single = true},
-                                 {.automatic = false, .two_way = true},
-                                 {.automatic = false},
-                                 {.nodes = true, .eroding = true},
-                                 {.single = true, .eroding = true},
-                                 {.two_way = true, .eroding = true},
-                                 {.single = true, .edges = true, .inner = true}};
+constexpr ContactKind kinds[] = {
+    {.nodes = true},
+    {.single = true},
+    {.two_way = true},
+    {},
+    {.single = true, .edges = true},
+    {.automatic = false, .nodes = true},
+    {.automatic = false, .single = true},
+    {.automatic = false, .two_way = true},
+    {.automatic = false},
+    {.nodes = true, .eroding = true},
+    {.single = true, .eroding = true},
+    {.two_way = true, .eroding = true},
+    {.single = true, .edges = true, .inner = true},
+    {.automatic = false, .nodes = true, .forming = true},
+    {.automatic = false, .forming = true},
+    {.automatic = false, .two_way = true, .forming = true},
+    {.single = true, .runs_as = "contact of nodes with faces, without _MORTAR"},
+    {.two_way = true, .runs_as = "contact of nodes with faces, without _MORTAR"}};
 constexpr ContactKind tiebreak_kinds[] = {
     {.two_way = true, .tiebreak = Tiebreak::by_option},
     {.tiebreak = Tiebreak::by_option},
@@ -81,7 +87,9 @@ KeywordOf<C> contact_keyword() {
        "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
        "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE", "CONTACT_ERODING_NODES_TO_SURFACE",
        "CONTACT_ERODING_SINGLE_SURFACE", "CONTACT_ERODING_SURFACE_TO_SURFACE",
-       "CONTACT_AUTOMATIC_GENERAL_INTERIOR"},
+       "CONTACT_AUTOMATIC_GENERAL_INTERIOR", "CONTACT_FORMING_NODES_TO_SURFACE",
+       "CONTACT_FORMING_ONE_WAY_SURFACE_TO_SURFACE", "CONTACT_FORMING_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_SINGLE_SURFACE_MORTAR", "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MORTAR"},
       "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces");
   out.cards.push_back(
       {.fields =

@@ -30,6 +30,7 @@ struct ContactCard : Entry {
   Real fstol = 2, tetfac = 0, shloff = 0;
   int erode_isym = 0, erosop = 0, iadj = 0;  ///< of eroding contacts
   int option = 0, tblcid = 0, thkoff = 0;    ///< of contacts that hold until they break
+  Real kpf = 0;
   Real nfls = 0, sfls = 0, param = 0, eraten = 0, erates = 0, ct2cn = 0, cn = 0, nen = 2, mes = 2;
 };
 
@@ -43,13 +44,15 @@ enum class Tiebreak {
 
 /// What the name of a *CONTACT says.
 struct ContactKind {
-  bool automatic = true;  ///< faces of shells act on both sides, with their thickness
-  bool single = false;    ///< one surface with itself
-  bool two_way = false;   ///< nodes of SURFB on faces of SURFA, too
-  bool nodes = false;     ///< SURFA gives nodes, which may be particles
-  bool edges = false;     ///< edges on edges, and beams, too
-  bool inner = false;     ///< all edges of shells, not only free ones
-  bool eroding = false;   ///< faces that deletion of solids lays bare, too
+  bool automatic = true;     ///< faces of shells act on both sides, with their thickness
+  bool single = false;       ///< one surface with itself
+  bool two_way = false;      ///< nodes of SURFB on faces of SURFA, too
+  bool nodes = false;        ///< SURFA gives nodes, which may be particles
+  bool edges = false;        ///< edges on edges, and beams, too
+  bool inner = false;        ///< all edges of shells, not only free ones
+  bool eroding = false;      ///< faces that deletion of solids lays bare, too
+  bool forming = false;      ///< rigid tools without thickness, blanks with theirs
+  const char* runs_as = "";  ///< where this is another method than the name asks for
   Tiebreak tiebreak = Tiebreak::none;
 };
 ContactKind kind_of(const ContactCard& card);

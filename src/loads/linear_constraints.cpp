@@ -178,6 +178,7 @@ class LinearBuilder {
     diagnostics_.error(deck_.where(card), deck_.keyword(card) + ": " + message, std::move(hint));
   }
   bool is_oblique(const BoundarySpcCard& card) const {
+    if (holds_for_a_time(card, model_.endtim)) return true;
     const auto system = model_.coordinate_systems.find(card.cid);
     if (card.cid == 0 || system == model_.coordinate_systems.end()) return false;
     constexpr Real along = 1 - 1e-9;  // cosine
@@ -206,7 +207,8 @@ class LinearBuilder {
     if (driven && (*driven)[term.node] != 0)
       return refuse("is driven by *BOUNDARY_PRESCRIBED_MOTION", "drive the other nodes of the sum, too");
     if (oblique_.contains(id) && !term.turns)
-      return refuse("is held along axes that are not the global ones", "hold it by a constraint of its own");
+      return refuse("is held along axes that are not the global ones, or for a time",
+                    "hold it by a constraint of its own");
     if (term.turns && tops_.contains(known->second))
       return refuse("has an *ELEMENT_INERTIA, which differs by axis", "constrain its displacements");
     const Field<Real>* mass = of_[term.turns].mass;

@@ -21,6 +21,10 @@ struct PartContactCard : PartCard {};
 
 struct BoundarySpcNodeCard : BoundarySpcCard {};
 struct BoundarySpcSetCard : BoundarySpcCard {};
+/// Whether it does not hold from the start to the end of the run.
+inline bool holds_for_a_time(const BoundarySpcCard& card, Real endtim) {
+  return card.birth > 0 || card.death < endtim;
+}
 
 struct LoadBodyRotationCard : LoadBodyCard {};  ///< Entry::name is the axis
 struct LoadBodyVectorCard : LoadBodyCard {};

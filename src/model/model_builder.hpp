@@ -106,6 +106,10 @@ class ModelBuilder {
   void build_constraints();
   std::array<bool, 3> held_directions(const BoundarySpcCard& card, const std::array<bool, 3>& held,
                                       const char* what);
+  // held_planes.cpp
+  void hold_planes(bool turn);
+  std::vector<Index> nodes_on_plane(const Vec& through, const Vec& normal, Real tolerance) const;
+  // build_conditions.cpp
   void hold_rotations(Index n, const std::array<bool, 3>& held);
   Matrix axes_of(const Entry& card, Id icid);
   void build_velocities();

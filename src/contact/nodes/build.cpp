@@ -56,7 +56,6 @@ class NodeContactBuilder {
       return diagnostics_.error(deck_.where(c),
                                 deck_.keyword(c) + ": elements do not touch each other in a plane scene yet",
                                 "leave it out, or make the scene one of three dimensions");
-    if (!shells_have_thickness(c, kind, sides)) return;
     refuse_laws(c);
     warn_of_kind(c, kind);
     NodeContactLaw law = measures_.law();
@@ -99,6 +98,9 @@ class NodeContactBuilder {
   }
 
   void warn_of_kind(const ContactCard& c, const ContactKind& kind) {
+    if (kind.runs_as[0] != 0)
+      diagnostics_.warning(deck_.where(c), fmt::format("{} runs as {}", deck_.keyword(c), kind.runs_as),
+                           "give the name of that contact to say so");
     if (c.soft == 2)
       deck_.warning(diagnostics_, c, "SOFT",
                     asks_for_edges(c) ? "2 (faces on faces) runs as 1 (nodes on faces, edges on edges)"
@@ -130,25 +132,6 @@ class NodeContactBuilder {
                                      has_nodes ? "its nodes and faces are held or belong to one rigid body"
                                                : "it has no nodes of elements"),
                          "leave it out, or name other parts");
-  }
-
-  // Between a node and a face that both have no thickness two sides cannot be told apart.
-  bool shells_have_thickness(const ContactCard& c, const ContactKind& kind, const ContactSides& sides) {
-    const bool nodes_have = std::all_of(sides.nodes.begin(), sides.nodes.end(), [&](const ContactNode& n) {
-      return n.r > 0 || options_.bodies.body(n.node) >= 0;
-    });
-    for (const ContactFace& f : sides.faces) {
-      if (!f.two_sided || f.r > 0 || (kind.automatic && nodes_have)) continue;
-      diagnostics_.error(
-          deck_.where(c),
-          fmt::format("{}: the shells of part {} count without their thickness here, which is not supported",
-                      deck_.keyword(c),
-                      model_.parts[static_cast<std::size_t>(world_.segments.part[f.segment])].id),
-          kind.automatic ? "give them a thickness"
-                         : "give SHLTHK 2 in *CONTROL_CONTACT, or use the contact with _AUTOMATIC");
-      return false;
-    }
-    return true;
   }
 
   /// Small faces of large solids hold nodes to this depth, of their width.
@@ -251,6 +234,15 @@ class NodeContactBuilder {
 
   void report_penetrations(const ContactCard& c, const NodeContact::Penetrations& p) {
     world_.counters["initial_penetrations"] += p.count + p.lost;
+    if (p.undecided > 0)
+      diagnostics_.error(
+          deck_.where(c),
+          fmt::format(
+              "{}: {} nodes start on shells that count without their thickness here, as node {}: which "
+              "side is theirs is not known",
+              deck_.keyword(c), p.undecided, p.undecided_node),
+          kind_of(c).automatic ? "give them a thickness"
+                               : "give SHLTHK 2 in *CONTROL_CONTACT, or use the contact with _AUTOMATIC");
     if (p.lost > 0)
       deck_.warning(
           diagnostics_, c, "",

@@ -17,8 +17,12 @@ ContactMeasures::ContactMeasures(const Deck& deck, const Model& model, Real tssf
 void ContactMeasures::take(const ContactCard& card) {
   card_ = &card;
   const ContactKind kind = kind_of(card);
-  if (kind.automatic) {
+  if (kind.automatic || kind.single) {
     shells_ = {.limited = kind.single && control_.ssthk == 0};
+    return;
+  }
+  if (kind.forming) {
+    shells_ = {.of_rigid = false, .of_others = true, .limited = false, .given = true};
     return;
   }
   const int which = card.thkopt == 2 ? 0 : card.thkopt == 1 ? card.shlthk : control_.shlthk;
@@ -30,8 +34,9 @@ Real ContactMeasures::half_thickness(int side, Index s) const {
   const auto a = g.nodes(s);
   if (g.volume[s] > 0) return 0.5 * card_->sldthk;
   const bool rigid = model_.parts[static_cast<std::size_t>(g.part[s])].rigid;
-  if (!(rigid ? shells_.of_rigid : shells_.of_others)) return 0;
-  const Real given = side == 0 ? card_->sast : card_->sbst, scale = side == 0 ? card_->sfsat : card_->sfsbt;
+  const Real given = side == 0 ? card_->sast : card_->sbst;
+  if (!(rigid ? shells_.of_rigid : shells_.of_others)) return shells_.given ? 0.5 * given : 0;
+  const Real scale = side == 0 ? card_->sfsat : card_->sfsbt;
   Real t = given > 0 ? given : contact_thickness(g, s) * scale;
   if (shells_.limited)
     for (std::size_t e = 0; e < 4; ++e) {

@@ -26,6 +26,7 @@ class ContactMeasures {
   struct OfShells {
     bool of_rigid = true, of_others = true;
     bool limited = false;  ///< to 0.4 of the shortest edge
+    bool given = false;    ///< those without a thickness have that of the card
   };
 
   const Deck& deck_;

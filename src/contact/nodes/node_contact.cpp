@@ -334,6 +334,7 @@ NodeContact::Penetrations NodeContact::penetrations(World& world) {
     Block& b = blocks_[static_cast<std::size_t>(i / block_size)];
     Slots slots;
     look(world, b, i, world.nodes.x.vec(node(i).node), slots);
+    if (is_undecided(b, i) && out.undecided++ == 0) out.undecided_node = world.nodes.id[node(i).node];
     find_touches(world, {}, b, i, slots);
     Real deepest = 0;
     for (const Slot& slot : slots)

@@ -101,9 +101,11 @@ class NodeContact : public Force,
 
   struct Penetrations {
     Index count = 0;
-    Real deepest = 0;  ///< [L]
-    Id node = 0;       ///< the deepest
-    Index lost = 0;    ///< nodes that start too deep inside another part to be held
+    Real deepest = 0;       ///< [L]
+    Id node = 0;            ///< the deepest
+    Index lost = 0;         ///< nodes that start too deep inside another part to be held
+    Index undecided = 0;    ///< nodes that start on shells, where neither has a thickness
+    Id undecided_node = 0;  ///< the first of them
   };
   /// Nodes that are behind faces now and would be pushed off them.
   Penetrations penetrations(World& world);
@@ -182,6 +184,7 @@ class NodeContact : public Force,
   void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
   bool goes_on_at(const Slots& slots, const ContactFace& f) const;
   bool is_lost(const World& world, const Block& b, Index i) const;
+  bool is_undecided(const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
   bool past_edge(const World& world, const Vec& x, bool wedge, Real r, Slot& slot) const;
   bool move_on(const World& world, const Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot,

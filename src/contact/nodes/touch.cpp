@@ -290,6 +290,13 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
   slot = Slot();
   slot.face = seen.face, slot.at = seen.at;
   slot.side = f.two_sided && before < 0 ? -1 : 1;
+  // What leaves a shell without thickness was behind it a step ago, and stays on its side.
+  for (int k = 0; f.two_sided && !(r > 0) && k < most_touches; ++k) {
+    const Slot last = load(i, k);
+    if (last.face < 0 || (last.face != seen.face && face(last.face).shared(f) == 0)) continue;
+    const Vec normal = plane_normal(corners_of(face(last.face), world.nodes.x));
+    slot.side = seen.at.n.dot(normal) < 0 ? -last.side : last.side;
+  }
   slot.n = slot.side * slot.at.n;
   slot.gap = slot.side * seen.d - r;
   if (slot.gap >= 0) return false;
@@ -316,6 +323,15 @@ bool NodeContact::is_lost(const World& world, const Block& b, Index i) const {
     const Real gap = seen.d - f.r - node(i).r;
     return other && !f.two_sided && seen.at.over && gap < -start_depth * f.depth && gap > -f.depth &&
            !grazes(world, i, seen.face, seen.at.q, seen.at.n);
+  });
+}
+
+// Whether a node starts on a shell, neither with a thickness, so that nothing says which side is its own.
+bool NodeContact::is_undecided(const Block& b, Index i) const {
+  return std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
+    const ContactFace& f = face(seen.face);
+    return f.two_sided && !(f.r + node(i).r > 0) && seen.at.over &&
+           std::abs(seen.d) <= start_rounding * size_;
   });
 }
 

@@ -7,6 +7,7 @@
 
 #include "elements/shell/cards_shell.hpp"
 #include "elements/shell/hourglass_shell.hpp"
+#include "elements/shell/laminate_shear.hpp"
 #include "elements/shell/layers.hpp"
 #include "elements/shell/shell_element_cards.hpp"
 #include "elements/shell/shells.hpp"
@@ -27,6 +28,7 @@ struct Similar {
   int used;
 };
 const std::map<int, Similar> similar = {
+    {-16, {"2 x 2 points of higher accuracy", fully_integrated}},
     {1, {"Hughes-Liu", belytschko_tsay}},
     {3, {"triangle of Bazeley, Cheung, Irons and Zienkiewicz", flat_triangle}},
     {6, {"selectively reduced Hughes-Liu", belytschko_tsay}},
@@ -38,7 +40,7 @@ const std::map<int, Similar> similar = {
 constexpr const char* formulations =
     "supported values: 2 (Belytschko-Tsay), 16 (2 x 2 points), 4 for triangles, 5 and 9 (membranes); 1, 6, "
     "7, 10 and "
-    "11 become 2, 3 and 17 become 4, 18 becomes 16";
+    "11 become 2, 3 and 17 become 4, -16 and 18 become 16";
 
 class ShellReader {
  public:
@@ -86,11 +88,33 @@ class ShellReader {
     ShellControl& c = out.control;
     if (whole) set_moduli(out, c);
     c.shear_factor = is_membrane(s) ? 0 : s.shrf;
+    if (whole && c.shear_factor > 0 && layered(part, out)) c.shear_factor = shear_of_layers(part, out);
     if (control_) set_control(part, *control_, out);
     c.warps = control_ && control_->bwc == 1 && !out.full;
     if (const auto* accuracy = deck_.last<ControlAccuracy>()) c.invariant_axes = accuracy->invariant_shells();
     if (const auto* step = deck_.last<ControlTimestepCard>()) c.length_rule = step->isdo;
     hourglass_.read(part, out.full, c, diagnostics_);
+  }
+  /// LAMSHT counts: layers of their own, and laminated theory of thin shells.
+  bool layered(const ModelPart& part, const ShellPart& shells) const {
+    constexpr int of_thick_shells = 4;
+    if (!control_ || control_->lamsht == 0 || control_->lamsht == of_thick_shells || shells.zeta.size() < 2)
+      return false;
+    const auto index = static_cast<Index>(&part - model_.parts.data());
+    return !shells.laws.empty() || !part.plies.empty() ||
+           std::any_of(model_.layups.begin(), model_.layups.end(),
+                       [&](const ModelLayup& layup) { return layup.part == index; });
+  }
+  Real shear_of_layers(const ModelPart& part, const ShellPart& shells) {
+    const LaminateShear shear = laminate_shear(shells);
+    constexpr Real alike = 0.05;
+    if (std::abs(shear.along - shear.across) > alike * shear.both)
+      deck_.warning(
+          diagnostics_, *control_, "LAMSHT",
+          fmt::format("the laminate of part {} shears by factors of {:.3f} along the first direction of "
+                      "its layers and {:.3f} across: {:.3f} is taken for both",
+                      part.id, shear.along, shear.across, shear.both));
+    return shear.both;
   }
   void set_control(const ModelPart& part, const ControlShell& card, ShellPart& out) {
     constexpr int of_flow = 4, thick_alone = 2;
@@ -195,17 +219,6 @@ class ShellReader {
            });
   }
 
-  /// Layers of several materials.
-  bool has_layers() const {
-    return std::any_of(model_.parts.begin(), model_.parts.end(),
-                       [](const ModelPart& part) {
-                         return part.has_shell &&
-                                std::any_of(part.plies.begin(), part.plies.end(), [&](const ModelPly& ply) {
-                                  return ply.mid != part.plies.front().mid;
-                                });
-                       }) ||
-           !model_.layups.empty() || !deck_.all<IntegrationShell>().empty();
-  }
   bool has_offsets() const {
     const auto deforms = [&](Index shell) {
       return !model_.parts[static_cast<std::size_t>(model_.shells[static_cast<std::size_t>(shell)].part)]
@@ -246,8 +259,6 @@ class ShellReader {
     refuse("MITER", c.miter != 1 && c.miter != 2, c.miter, "plane stress is iterated to convergence (1, 2)");
     refuse("ROTASCL", !(c.rotascl > 0), c.rotascl, "rotary inertia must be above 0");
     refuse("INTGRD", c.intgrd != 0 && c.intgrd != 1, c.intgrd, "points are of Gauss (0) or Lobatto (1)");
-    refuse("LAMSHT", c.lamsht != 0 && has_layers(), c.lamsht,
-           "transverse shear is the same in all layers, and these differ");
     refuse("SIDT4TU", c.sidt4tu != 0, c.sidt4tu, "ISTUPD holds for all parts");
     refuse("W-MODE", c.wmode != 0, c.wmode, "no shell is deleted");
     refuse("STRETCH", c.stretch != 0, c.stretch, "no shell is deleted");

@@ -107,6 +107,9 @@ std::string cannot_do_markdown() {
       "\n## Requests for output\n\nA keyword without a table that begins with one of these gives a warning, "
       "and the run goes on: {}.\n",
       listed_names(output_requests()));
+  out += fmt::format(
+      "\n## Definitions that nothing reads\n\nA keyword that begins with one of these gives a note: {}.\n",
+      listed_names(unused_definitions()));
   return out;
 }
 

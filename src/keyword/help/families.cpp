@@ -153,7 +153,7 @@ constexpr Family families[] = {
     {"INITIAL_VOLUME_FRACTION", "volume fractions of ALE meshes"},
     {"INTEGRATION", "user-defined integration rules"},
     {"INTERFACE", "interface files"},
-    {"INTERFACE_SPRINGBACK", "springback files"},
+    {"INTERFACE_SPRINGBACK", "springback in the run"},
     {"LOAD", "this load"},
     {"LOAD_BEAM", "loads on beams"},
     {"LOAD_BLAST", "blast loads"},
@@ -195,7 +195,6 @@ constexpr Family families[] = {
     {"SENSOR", "this kind of sensor"},
     {"SET", "this form of set"},
     {"SET_BEAM", "sets of beams"},
-    {"SET_DISCRETE", "sets of springs and dampers"},
     {"SET_IGA", "isogeometric elements"},
     {"SET_MODE", "sets of modes"},
     {"SET_SEGMENT", "sets of segments"},
@@ -260,8 +259,21 @@ constexpr std::size_t slip_of_the_pen = 2, shortest_for_two = 8;
 }  // namespace
 
 std::vector<std::string> output_requests() {
-  return {"DATABASE",     "CONTROL_OUTPUT", "CONTROL_PARALLEL",         "CONTROL_MPP", "CONTROL_UNITS",
-          "CONTROL_LSDA", "CONTROL_DEBUG",  "CONTROL_REQUIRE_REVISION", "LSO",         "ELEMENT_PLOTEL"};
+  return {"DATABASE",      "CONTROL_OUTPUT", "CONTROL_PARALLEL",    "CONTROL_MPP",
+          "CONTROL_UNITS", "CONTROL_LSDA",   "CONTROL_DEBUG",       "CONTROL_REQUIRE_REVISION",
+          "LSO",           "ELEMENT_PLOTEL", "INTERFACE_COMPONENT", "INTERFACE_SPRINGBACK_LSDYNA"};
+}
+
+std::vector<std::string> unused_definitions() {
+  return {"DEFINE_BOX_ADAPTIVE", "DEFINE_BOX_COARSEN", "DEFINE_BOX_DRAWBEAD", "DEFINE_CONTACT_VOLUME",
+          "DEFINE_FILTER",       "DEFINE_PLANE",       "DEFINE_REGION",       "SET_2D",
+          "SET_DISCRETE",        "SET_MULTI",          "SET_TSHELL"};
+}
+
+bool is_unused_definition(const std::string& name) {
+  for (const std::string& words : unused_definitions())
+    if (begins_with_words(name, words)) return true;
+  return false;
 }
 
 bool is_output_request(const std::string& name) {

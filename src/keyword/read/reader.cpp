@@ -7,6 +7,7 @@
 
 #include "keyword/help/families.hpp"
 #include "keyword/read/deck_reader.hpp"
+#include "keyword/read/number.hpp"
 #include "keyword/read/repeated_cards.hpp"
 
 namespace courant {
@@ -187,12 +188,15 @@ bool defines_nothing(const std::string& name) {
   return false;
 }
 
-/// Whether lines hold nothing but zeros.
+/// Whether lines hold nothing but zeros, as 0, 0.0 or 0.000E+00.
 bool all_zero(DataLines data) {
   for (; !data.done(); data.step())
-    for (const char c : data.line())
-      if (c == '-' || (c >= '1' && c <= '9') || std::isalpha(static_cast<unsigned char>(c)) || c == '&')
-        return false;
+    for (std::string_view left = data.line(); !left.empty();) {
+      const std::string_view word = left.substr(0, left.find_first_of(" ,\t\r"));
+      left.remove_prefix(std::min(word.size() + 1, left.size()));
+      Real value = 0;
+      if (!word.empty() && !(parse_real(word, value) && value == 0)) return false;
+    }
   return true;
 }
 
@@ -237,6 +241,11 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
     diagnostics_.error(where, "a '*' in column 1 without the name of a keyword",
                        "the name follows it directly; a comment begins with $");
     return Treatment::refused;
+  }
+  if (is_unused_definition(name)) {
+    if (refusals_.is_first(name, diagnostics_))
+      diagnostics_.note(where, fmt::format("*{}: nothing here refers to it: no effect", name));
+    return Treatment::honoured;
   }
   const bool is_output = is_output_request(name);
   const Treatment treatment = is_output ? Treatment::output_only : Treatment::refused;

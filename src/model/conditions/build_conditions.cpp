@@ -175,13 +175,18 @@ void ModelBuilder::build_constraints() {
     if (held.turns != std::array<bool, 3>{}) hold_rotations(n, held.turns);
   };
   for (const auto& card : deck_.all<BoundarySpcNodeCard>())
-    if (const Index n = node(card, "NID", card.nid); n >= 0) hold(n, held_by(card));
+    if (holds_for_a_time(card, model_.endtim))
+      node(card, "NID", card.nid);  // timed ones are passes of their own: oblique_supports.cpp
+    else if (const Index n = node(card, "NID", card.nid); n >= 0)
+      hold(n, held_by(card));
   for (const auto& card : deck_.all<BoundarySpcSetCard>()) {
     const std::vector<Index>* members = node_set(card, "NSID", card.nid);
+    if (holds_for_a_time(card, model_.endtim)) continue;
     const HeldAxes held = held_by(card);
     if (!members) continue;
     for (const Index n : *members) hold(n, held);
   }
+  hold_planes(turn);
   if (!turn) return;
   for (const NodeCard& card : deck_.all<NodeCard>())  // the first of each id is the node
     if (const Index n = card.rc == 0 ? -1 : node_of_id_.find(card.nid); n >= 0)

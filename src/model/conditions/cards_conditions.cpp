@@ -16,6 +16,8 @@ const RegisterKeyword<InitialVelocityGenerationCard> initial_velocity_generation
     initial_velocity_generation_table()};
 const RegisterKeyword<BoundarySpcNodeCard> boundary_spc_node{boundary_spc_node_table()};
 const RegisterKeyword<BoundarySpcSetCard> boundary_spc_set{boundary_spc_set_table()};
+const RegisterKeyword<ConstrainedGlobal> constrained_global{constrained_global_table()};
+const RegisterKeyword<SymmetryPlaneCard> symmetry_plane{boundary_spc_symmetry_plane_table()};
 const RegisterKeyword<LoadBodyCard> load_body{load_body_x_table()};
 const RegisterKeyword<LoadBodyVectorCard> load_body_vector{load_body_vector_table()};
 const RegisterKeyword<LoadBodyRotationCard> load_body_rotation{load_body_rx_table()};
@@ -34,6 +36,17 @@ std::string move_constraint(BoundarySpcCard& card, const Affine& motion) {
     std::string reason = move_held_axes(held, motion);
     if (!reason.empty() && dof == &card.dofx) return reason;
     for (std::size_t k = 0; k < 3; ++k) *flags[k] = held[k];
+  }
+  return {};
+}
+
+std::string move_plane(ConstrainedGlobal& card, const Affine& motion) {
+  if (card.dir < 1 || card.dir > 3) return {};  // refused later, as it is
+  for (int* code : {&card.tc, &card.rc, &card.dir}) {
+    auto held = axes_of_code(*code);
+    std::string reason = move_held_axes(held, motion);
+    if (!reason.empty()) return reason;
+    *code = code_of_axes(held);
   }
   return {};
 }

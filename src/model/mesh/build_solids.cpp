@@ -226,7 +226,6 @@ void ModelBuilder::check_control_solid(const ControlSolid& card) {
     if (value != 0)
       error(card, field, fmt::format("'{}' is not supported: {}", value, what), "leave the field blank");
   };
-  refuse("FMATRIX", card.fmatrix, "nothing here follows the deformation gradient");
   refuse("PSFAIL", card.psfail, "no solid is taken out of the run by its volume");
   if (std::none_of(model_.solids.begin(), model_.solids.end(),
                    [](const ModelSolid& solid) { return solid.has_nodes_on_edges(); }))

@@ -34,6 +34,10 @@ void ModelBuilder::build_field_output() {
   if (const auto* card = deck_.last<DatabaseExtentBinary>()) {
     if (card->neiph > 0) out.extra = {"stress", "strain_rate", "sound_speed", "density_rate"};
     if (card->resplt == 1) out.extra.push_back("force");
+    if (card->strflg >= 10)
+      deck_.warning(diagnostics_, *card, "STRFLG",
+                    "tensors of plastic and thermal strains are not written: those of all strain are",
+                    "1 says the same without this warning");
   }
   const auto* card = deck_.last<CourantOutputCard>();
   if (!card) return;

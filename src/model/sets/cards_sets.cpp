@@ -53,18 +53,28 @@ namespace {
 using namespace rules;
 
 /// The first card of all sets. The attributes are defaults for what members carry into tiebreak contacts,
-/// thermal and airbag loads; nothing that is computed here reads them.
+/// thermal and airbag loads; *CONTACT_INTERIOR alone reads those of parts.
 CardOf<SetCard> set_card(SetKind kind) {
+  const FieldRules of_parts = kind == SetKind::part ? FieldRules{} : no_effect;
   if (kind == SetKind::solid)  // solids have no attributes
     return {.fields = {{"SID", &SetCard::sid, "-", "set id", required_id},
                        {"SOLVER", &SetCard::solver, "-", "solver that owns the set", no_effect}}};
-  return {.fields = {{"SID", &SetCard::sid, "-", "set id", required_id},
-                     {"DA1", &SetCard::da1, "-", "attribute 1", no_effect},
-                     {"DA2", &SetCard::da2, "-", "attribute 2", no_effect},
-                     {"DA3", &SetCard::da3, "-", "attribute 3", no_effect},
-                     {"DA4", &SetCard::da4, "-", "attribute 4", no_effect},
-                     {"SOLVER", &SetCard::solver, "-", "solver that owns the set", no_effect},
-                     {"ITS", &SetCard::its, "-", "two-scale flag", no_effect_but(1)}}};
+  return {
+      .fields = {
+          {"SID", &SetCard::sid, "-", "set id", required_id},
+          {"DA1", &SetCard::da1, "-",
+           kind == SetKind::part ? "attribute 1; of *CONTACT_INTERIOR scale of the stiffness" : "attribute 1",
+           of_parts},
+          {"DA2", &SetCard::da2, "-",
+           kind == SetKind::part
+               ? "attribute 2; of *CONTACT_INTERIOR share of the thickness at which it begins"
+               : "attribute 2",
+           of_parts},
+          {"DA3", &SetCard::da3, "-",
+           kind == SetKind::part ? "attribute 3; of *CONTACT_INTERIOR a modulus" : "attribute 3", of_parts},
+          {"DA4", &SetCard::da4, "-", "attribute 4", no_effect},
+          {"SOLVER", &SetCard::solver, "-", "solver that owns the set", no_effect},
+          {"ITS", &SetCard::its, "-", "two-scale flag", no_effect_but(1)}}};
 }
 
 CardOf<SetCard> list_card(SetKind kind, SetForm form, const char* meaning, IdSpace space,

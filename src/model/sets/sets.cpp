@@ -66,9 +66,14 @@ SetResolver::SetResolver(const Deck& deck, Model& model, const IdIndex& node_of_
 
 namespace {
 
+/// Lists of parts are short and stay: *CONTACT_INTERIOR reads their attributes.
 template <class... Cards>
 struct Release {
-  explicit Release(Deck& deck) { (deck.release<Cards>(), ...); }
+  explicit Release(Deck& deck) { (release<Cards>(deck), ...); }
+  template <class T>
+  static void release(Deck& deck) {
+    if constexpr (T::kind != SetKind::part || T::form != SetForm::list) deck.release<T>();
+  }
 };
 
 }  // namespace
