@@ -251,8 +251,8 @@ class TiedPointReader {
       }
       if (state(n) == state(point.nodes.front())) continue;
       error(card,
-            fmt::format("node {} is held or driven in another way than node {}, to which it is tied",
-                        world_.nodes.id[n], world_.nodes.id[point.nodes.front()]),
+            fmt::format("node {} is not held or driven as node {}, to which it is tied", world_.nodes.id[n],
+                        world_.nodes.id[point.nodes.front()]),
             "hold or drive all nodes at one position alike");
       return false;
     }

@@ -171,19 +171,19 @@ class ObliqueReader {
       timed_.push_back(one);
     }
   }
-  /// Index into World::nodes of a node that nothing else moves; -1: what is told goes to `refuse`.
+  /// Index into World::nodes of a node that nothing else moves; -1: `refuse` gets why.
   template <class Refuse>
   Index free_node(Id id, const char* how, const Refuse& refuse) const {
-    const auto told = [&](const char* what) {
+    const auto refused = [&](const char* what) {
       refuse(fmt::format("node {} {}, and cannot be held {}", id, what, how));
       return Index(-1);
     };
     const auto found = node_of_id_.find(id);
-    if (found == node_of_id_.end()) return told("is a particle or of no element");
+    if (found == node_of_id_.end()) return refused("is a particle or of no element");
     const Index n = found->second;
-    if (world_.nodes.follow[n] != 0) return told("goes with a rigid body or a face");
+    if (world_.nodes.follow[n] != 0) return refused("goes with a rigid body or a face");
     const auto* driven = shared_fields::prescribed_motion.find(world_.nodes.fields);
-    if (driven && (*driven)[n] != 0) return told("is driven, too");
+    if (driven && (*driven)[n] != 0) return refused("is driven, too");
     return n;
   }
   bool hold(const BoundarySpcCard& card, Id id, const Vec& axis) {

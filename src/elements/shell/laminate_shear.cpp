@@ -52,8 +52,8 @@ Real equilibrium_stiffness(const std::vector<LayerModuli>& layers, const std::ve
     const Real low = z - neutral, t = share[k], middle = low + 0.5 * t;
     bending += layers[k].E * (t * middle * middle + t * t * t / 12);
     const Real at = std::sqrt(0.6);  // Gauss: exact for polynomials of fifth degree
-    for (const auto& [place, weight] : {std::pair{-at, 5.0 / 18}, {Real(0), 8.0 / 18}, {at, 5.0 / 18}}) {
-      const Real y = middle + 0.5 * t * place;
+    for (const auto& [point, weight] : {std::pair{-at, 5.0 / 18}, {Real(0), 8.0 / 18}, {at, 5.0 / 18}}) {
+      const Real y = middle + 0.5 * t * point;
       const Real here = S + 0.5 * layers[k].E * (y * y - low * low);
       flexibility += weight * t * here * here / layers[k].G;
     }

@@ -203,8 +203,9 @@ const std::string plastic =
     "*SECTION_SOLID\n1,1\n*PART\nbar\n1,1,1\n*MAT_PLASTIC_KINEMATIC\n"
     "1,7.8E-9,2.0E5,0.3,200.0,2000.0\n";
 
-/// A bar of two halves, pulled at its end; `apart`: each half has nodes of its own at the joint, numbered on.
-SolidDeck pulled_bar(bool apart, const std::string& cards) {
+/// A bar of two halves, stretched at its end; `apart`: each half has nodes of its own at the joint, numbered
+/// on.
+SolidDeck stretched_bar(bool apart, const std::string& cards) {
   SolidDeck deck;
   if (apart) {
     deck.block(Vec(10, 2, 2), 5, 1, 1, 1);
@@ -222,7 +223,7 @@ SolidDeck pulled_bar(bool apart, const std::string& cards) {
   return deck;
 }
 
-std::vector<Real> pull_along(const World& world) {
+std::vector<Real> positions_along(const World& world) {
   std::vector<std::pair<Real, Real>> at;
   for (Index n = 0; n < world.nodes.size(); ++n)
     at.emplace_back(world.nodes.v.vec(n)[0], world.nodes.x.vec(n)[0]);
@@ -240,8 +241,8 @@ std::vector<Real> pull_along(const World& world) {
 // Tied nodes move as those of one mesh, until the plastic strain at the joint reaches EPPF: then they part.
 TEST(HabitualCards, TiedNodesArePartOfOneMeshUntilTheyFail) {
   const std::string card = "*CONSTRAINED_TIED_NODES_FAILURE\n3,0.02,1\n";
-  auto tied = simulation_of(pulled_bar(true, card).text(1)),
-       whole = simulation_of(pulled_bar(false, "").text(1));
+  auto tied = simulation_of(stretched_bar(true, card).text(1)),
+       whole = simulation_of(stretched_bar(false, "").text(1));
   const auto gap = [](const World& world) {
     return world.nodes.x.vec(24)[0] - world.nodes.x.vec(5)[0];  // nodes 25 and 6 at the joint
   };
@@ -251,7 +252,7 @@ TEST(HabitualCards, TiedNodesArePartOfOneMeshUntilTheyFail) {
     tied->step(do_nothing), whole->step(do_nothing);
     EXPECT_LT(std::abs(gap(tied->world())), 1e-10);
   }
-  const std::vector<Real> a = pull_along(tied->world()), b = pull_along(whole->world());
+  const std::vector<Real> a = positions_along(tied->world()), b = positions_along(whole->world());
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-8) << k;
   EXPECT_GT(parted(), 0);
@@ -262,7 +263,7 @@ TEST(HabitualCards, TiedNodesArePartOfOneMeshUntilTheyFail) {
 }
 
 TEST(HabitualCards, TiedNodesHaveTheSameBits) {
-  test::expect_same_bits(pulled_bar(true, "*CONSTRAINED_TIED_NODES_FAILURE\n3,0.002,1\n").text(2e-4), 400,
+  test::expect_same_bits(stretched_bar(true, "*CONSTRAINED_TIED_NODES_FAILURE\n3,0.002,1\n").text(2e-4), 400,
                          250);
 }
 
