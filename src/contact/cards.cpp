@@ -18,27 +18,27 @@ constexpr Honour no = Honour::no, ignored = Honour::ignored, output_only = Honou
 constexpr ContactKind kinds[] = {
     {.nodes = true},
     {.single = true},
-    {.two_way = true},
+    {.symmetric = true},
     {},
     {.single = true, .edges = true},
     {.automatic = false, .nodes = true},
     {.automatic = false, .single = true},
-    {.automatic = false, .two_way = true},
+    {.automatic = false, .symmetric = true},
     {.automatic = false},
     {.nodes = true, .eroding = true},
     {.single = true, .eroding = true},
-    {.two_way = true, .eroding = true},
+    {.symmetric = true, .eroding = true},
     {.single = true, .edges = true, .inner = true},
     {.automatic = false, .nodes = true, .forming = true},
     {.automatic = false, .forming = true},
-    {.automatic = false, .two_way = true, .forming = true},
+    {.automatic = false, .symmetric = true, .forming = true},
     {.single = true, .runs_as = "contact of nodes with faces, without _MORTAR"},
-    {.two_way = true, .runs_as = "contact of nodes with faces, without _MORTAR"}};
+    {.symmetric = true, .runs_as = "contact of nodes with faces, without _MORTAR"}};
 constexpr ContactKind tiebreak_kinds[] = {
-    {.two_way = true, .tiebreak = Tiebreak::by_option},
+    {.symmetric = true, .tiebreak = Tiebreak::by_option},
     {.tiebreak = Tiebreak::by_option},
     {.automatic = false, .nodes = true, .tiebreak = Tiebreak::force},
-    {.automatic = false, .two_way = true, .tiebreak = Tiebreak::stress}};
+    {.automatic = false, .symmetric = true, .tiebreak = Tiebreak::stress}};
 Tiebreak tiebreak_of(const C& card) {
   return tiebreak_kinds[card.name].tiebreak;
 }
@@ -144,7 +144,7 @@ bool asks_for_edges(const ContactCard& card) {
   if (kind.edges) return true;
   constexpr int depths[] = {5, 15, 25, 35};
   return card.soft == 2 && kind.automatic && !kind.eroding && kind.tiebreak == Tiebreak::none &&
-         (kind.single || kind.two_way) &&
+         (kind.single || kind.symmetric) &&
          std::find(std::begin(depths), std::end(depths), card.depth) != std::end(depths);
 }
 

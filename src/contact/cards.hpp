@@ -46,7 +46,7 @@ enum class Tiebreak {
 struct ContactKind {
   bool automatic = true;     ///< faces of shells act on both sides, with their thickness
   bool single = false;       ///< one surface with itself
-  bool two_way = false;      ///< nodes of SURFB on faces of SURFA, too
+  bool symmetric = false;    ///< nodes of SURFB on faces of SURFA, too
   bool nodes = false;        ///< SURFA gives nodes, which may be particles
   bool edges = false;        ///< edges on edges, and beams, too
   bool inner = false;        ///< all edges of shells, not only free ones

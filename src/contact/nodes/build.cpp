@@ -45,7 +45,7 @@ class NodeContactBuilder {
     measures_.take(c);
     add_nodes(0, nodes_a, c.surfatyp == 4 ? finder_.faces_around(nodes_a) : faces_a, sides);
     add_faces(c, kind.single ? 0 : 1, 1U, faces_b, sides);
-    if (kind.two_way) {
+    if (kind.symmetric) {
       add_nodes(1, finder_.nodes(c, ContactSide::b, faces_b), faces_b, sides);
       add_faces(c, 0, 2U, faces_a, sides);
     }
@@ -121,7 +121,7 @@ class NodeContactBuilder {
                      "two surfaces alone");
       without_effect("EDGEK", c.edgek != 0, "it is of edges that touch edges");
     }
-    if (!kind.two_way || kind.single)
+    if (!kind.symmetric || kind.single)
       without_effect("SFSB", c.sfsb != 1 && c.sfsb != 0, "nodes of SURFA alone are kept off faces");
   }
 

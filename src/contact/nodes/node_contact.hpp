@@ -42,10 +42,11 @@ struct ContactSides {
   std::vector<ContactFace> faces;
 };
 
-/// The interface at work, see docs/theory_contact.md. A node gets into touch with a face when it passes from in front
-/// of it to behind it, and stays in touch, whatever else is near, until it is in front again or goes on to a
-/// neighbour of the face; so no thickness of a body and no speed makes it go on the wrong side. Up to three
-/// faces at once hold it in corners. What survives a step are the touches, in fields of a set of its own.
+/// The interface at work, see docs/theory_contact.md. A node gets into touch with a face when it passes from
+/// in front of it to behind it, and stays in touch, whatever else is near, until it is in front again or goes
+/// on to a neighbour of the face; so no thickness of a body and no speed makes it go on the wrong side. Up to
+/// three faces at once hold it in corners. What survives a step are the touches, in fields of a set of its
+/// own.
 ///
 /// Forces go to a list of touches, from which each node gathers its own in a fixed order.
 class NodeContact : public Force,

@@ -42,6 +42,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
         inertia_(*shared_fields::rotary_inertia.find(world.nodes.fields)),
         control_(part.control),
         places_(part.full && group.corners() == 4 ? 4 : 1),
+        distortion_(part.distorted, group.corners(), places_ > 1),
         loops_(shell_loops(group.corners(), places_, part.control)),
         stress_(layer_stress_of(group, places_ * static_cast<int>(part.zeta.size()))),
         thickness_(thickness_of_shells(group)),
@@ -81,8 +82,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0)
       damping_ = std::make_unique<StiffnessDamping>(coef, group_, state_.points, 0);
     FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
-    distorted_ = part.distorted;
-    rules.distorted = distorted_ == DistortedShells::deleted;
+    rules.distorted = part.distorted == DistortedShells::deleted;
     if (rules.any()) options.eroding.push_back(erosion_ = make_erosion(rules, world));
     if (!options.strains) return;
     strains_.emplace(group, state_.points);
@@ -132,7 +132,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       for (int k = 0; k < 6 * state_.points; ++k) damped_->stress[k] = damping_->damped(k / 6, k % 6);
     }
     found_.resize(static_cast<std::size_t>(block_count(group_.size())));
-    distorted_shell_.assign(found_.size(), -1);
+    distortion_.start(static_cast<std::size_t>(block_count(group_.size())));
   }
   void block(World&, const Clock& clock, Index begin, Index end) override {
     ShellScratch scratch;
@@ -141,7 +141,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     if (erosion_) erosion_->begin_block(begin, count);
     found = advance(mesh_, control_, clock.dt_old, begin, end, scratch, erosion_ ? &clock : nullptr);
     if (damping_) damping_->shorten(begin, count, scratch.wave_time, scratch.step_limit);
-    if (may_distort()) look_at_distortion(begin, count, scratch);
+    distortion_.look(begin, count, mesh_, scratch, erosion_.get());
     if (erosion_)
       erosion_->judge(begin, count, tssfac_, scratch.step_limit, scratch.wave_time, nullptr,
                       {scratch.corner_force, scratch.corner_moment, clock.dt_old});
@@ -153,8 +153,8 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
   void finish(World& world, const Clock& clock) override {
     if (scaled_) scaled_->grow(world);
-    for (const Index e : distorted_shell_)
-      if (e >= 0) stop_for_distortion(group_, part_id_, e, full(), clock);
+    if (const Index e = distortion_.found(); e >= 0)
+      stop_for_distortion(group_, part_id_, e, places_ > 1, clock);
     if (!control_.thins) return;
     for (Index e = 0; e < group_.size(); ++e)
       if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e)))
@@ -280,32 +280,6 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
       failing.law_limit = layer.law->failure_limit();
     }
     erosion_->look(failing);
-  }
-
-  bool full() const { return places_ > 1; }  ///< 2 x 2 points
-  /// With 2 x 2 points one that is turned inwards has no meaning, whatever the deck asks for.
-  bool may_distort() const {
-    return group_.corners() == 4 && (full() || distorted_ != DistortedShells::stay);
-  }
-  void look_at_distortion(Index begin, Index count, const ShellScratch& scratch) {
-    Index& at = distorted_shell_[static_cast<std::size_t>(begin / block_size)];
-    for (Index i = 0; i < count; ++i) {
-      const Index e = begin + i;
-      if ((erosion_ && erosion_->dead(e)) || !is_distorted(e, i, scratch)) continue;
-      if (distorted_ == DistortedShells::deleted)
-        erosion_->fail(begin, e, "it is distorted");
-      else
-        at = e;
-    }
-  }
-  bool is_distorted(Index e, Index i, const ShellScratch& scratch) const {
-    if (full())
-      return !(std::min({scratch.quarter_area[0][i], scratch.quarter_area[1][i], scratch.quarter_area[2][i],
-                         scratch.quarter_area[3][i]}) > 0);
-    std::array<Vec, 4> x;
-    for (std::size_t c = 0; c < 4; ++c)
-      for (int k = 0; k < 3; ++k) x[c][k] = mesh_.x[k][mesh_.corner[c][e]];
-    return turns_inwards(x, false);
   }
 
   /// Dead elements of a block are taken as a square that does not move, and stay without stress.
@@ -447,8 +421,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   const Field<Real>&w_, &inertia_;  ///< of nodes
   ShellControl control_;
   int places_;  ///< of points in the plane
-  DistortedShells distorted_ = DistortedShells::stay;
-  std::vector<Index> distorted_shell_;  ///< of each block one that stops the run; -1: none
+  DistortionWatch distortion_;
   ShellLoops loops_;
   Field<Real>&stress_, &thickness_, &internal_, &hourglass_, &bulk_viscosity_;
   const Field<Real>& corner_inertia_;  ///< rotary inertia for each corner [ML2]

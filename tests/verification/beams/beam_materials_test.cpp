@@ -5,8 +5,8 @@
 #include <string>
 
 #include "beam_decks.hpp"
-#include "solid_decks.hpp"
 #include "elements/element_report.hpp"
+#include "solid_decks.hpp"
 
 using namespace courant;
 using namespace courant::test::beams;
