@@ -34,6 +34,7 @@ class DistortionWatch {
  public:
   DistortionWatch(DistortedShells asked, int corners, bool full)
       : asked_(asked), looks_(corners == 4 && (full || asked != DistortedShells::stay)), full_(full) {}
+  bool full() const { return full_; }
   void start(std::size_t blocks) { stops_.assign(looks_ ? blocks : 0, -1); }
   void look(Index begin, Index count, const ShellMesh& mesh, const ShellScratch& scratch, Erosion* erosion) {
     for (Index i = 0; looks_ && i < count; ++i) {

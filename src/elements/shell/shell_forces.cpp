@@ -154,7 +154,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   void finish(World& world, const Clock& clock) override {
     if (scaled_) scaled_->grow(world);
     if (const Index e = distortion_.found(); e >= 0)
-      stop_for_distortion(group_, part_id_, e, places_ > 1, clock);
+      stop_for_distortion(group_, part_id_, e, distortion_.full(), clock);
     if (!control_.thins) return;
     for (Index e = 0; e < group_.size(); ++e)
       if (!(state_.thickness[e] > 0) && !(erosion_ && erosion_->dead(e)))
