@@ -162,8 +162,8 @@ struct KeywordOf {
   /// counted by `courant check`, and the deck is refused.
   std::string lacking{};
   std::vector<CardOf<T>> cards{};
-  /// What the table cannot report a change of units or of a motion: done after the fields' own rules. They
-  /// return why it cannot be done, else nothing.
+  /// What the table cannot state about a change of units or of a motion: done after the fields' own rules.
+  /// They return why it cannot be done, else nothing.
   std::string (*convert)(T&, const Conversion&) = nullptr;
   std::string (*move)(T&, const Affine&) = nullptr;
 };

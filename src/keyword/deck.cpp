@@ -155,7 +155,7 @@ std::string Deck::origin(const std::string& text) const {
   const DeckParameter* found = nullptr;
   for (const DeckParameter& parameter : parameters) {
     if (upper_case(parameter.name) != name) continue;
-    if (found) return {};  // which of several local ones cannot be reported any more
+    if (found) return {};  // which of several local ones is no longer known
     found = &parameter;
   }
   if (!found) return {};

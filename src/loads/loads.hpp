@@ -28,7 +28,7 @@ inline Index loaded_points(const Points& points, const World& world) {
 /// Of each point of the world, an index into Model::nodes.
 std::vector<Index> model_nodes(const Model& model, const World& world, const Points& points);
 
-/// m a of the body loads, and their energy. `neighbours`: of particles, who states which of them come and go;
+/// m a of the body loads, and their energy. `neighbours`: of particles, states which of them come and go;
 /// null for nodes.
 std::shared_ptr<Force> make_body_load(BodyAcceleration acceleration, Points points, World& world,
                                       std::shared_ptr<Neighbours> neighbours = nullptr);

@@ -111,7 +111,7 @@ struct EnergyTerm : virtual Pass {
 };
 
 /// The passes of a world. The order of adding counts only where accesses leave it open: among passes of one
-/// phase that add to the same field, and for the ledger, the limits and what is reported a rebuild.
+/// phase that add to the same field, and for the ledger, the limits and what follows a rebuild.
 class PassList {
  public:
   /// Returns the pass. Throws std::logic_error where it is in the list already.

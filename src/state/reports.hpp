@@ -1,5 +1,5 @@
 #pragma once
-// What passes can report themselves for the histories, on request.
+// What passes report of themselves for the histories, on request.
 #include <functional>
 #include <vector>
 

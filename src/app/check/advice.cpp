@@ -48,7 +48,7 @@ std::string advice_for_flow(const StopFacts& f) {
         "{} set the step: its penalty is stiff for particles this light; lower SLSFAC of "
         "*CONTROL_CONTACT or SFSA of the contact",
         f.dt_set_by);
-  // what LCTM says is reported the last step, and hides who would have set it
+  // what LCTM says is applied to the last step, and hides what would have set it
   const bool told = !f.dt_set_by.empty() && f.dt_set_by != "load curve";
   if (f.has_contact && told && f.contact_share > 0.95)
     return fmt::format(

@@ -354,7 +354,7 @@ class Run {
     failure_ = " *** Error: " + reason;
   }
 
-  /// What the state reports the failure: advice, and the state itself for those that want to look.
+  /// What the state shows of the failure: advice, and the state itself, to be looked at.
   void explain(const RunError& error) {
     failed_state_ = true;
     s_.guard().note_ranges(s_.world(), s_.clock());

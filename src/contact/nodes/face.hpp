@@ -30,7 +30,7 @@ struct ContactFace {
   }
 };
 
-/// Where a face is now, roughly: what states that a node is far from it.
+/// Where a face is now, roughly: enough to know that a node is far from it.
 struct FaceShape {
   Vec centre = Vec::Zero(), n = Vec::Zero();      ///< mean of the corners; unit normal [L], [-]
   Real radius = 0;                                ///< of a sphere around the corners [L]

@@ -188,7 +188,7 @@ class TiedBuilder {
     diagnostics_.error(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));  // of the whole
   }
 
-  /// Which nodes are next to which faces, with what is to be reported that.
+  /// Which nodes are next to which faces, with what is to be reported of that.
   /// `of_elements`: SURFA names parts, whose elements need no faces. `later`: gets nodes and faces, which may
   /// be tied where they come to touch.
   bool find(const ContactCard& c, std::vector<Tie>& ties, bool of_elements = false,

@@ -476,7 +476,7 @@ class BeamForces : public Material,
   std::shared_ptr<Erosion> erosion_;                 ///< null: nothing fails
   int plastic_ = -1, fails_ = -1;  ///< of a point's numbers the plastic strain, and what it fails by
   std::vector<std::string> why_;   ///< welds fail in this step
-  std::vector<char> folded_;       ///< ends turned so far that nothing states which way
+  std::vector<char> folded_;       ///< ends turned so far that their sense is unknown
   Field<Real>* shown_pull_ = nullptr;
   std::array<Field<Real>*, 2> shown_moment_{};
   std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;

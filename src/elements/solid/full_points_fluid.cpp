@@ -15,7 +15,7 @@ struct PointRates {
   std::array<Real, block_size> cutoff;  ///< of the point at work [M/LT2]
 };
 
-/// Their deviator: the pressure of an equation of state is distinguished.
+/// Their deviator: the pressure of an equation of state is separate.
 void strip(const PointBlock& at) {
   for (Index i = 0; i < at.count; ++i) {
     const Real mean = (at.stress[0][i] + at.stress[1][i] + at.stress[2][i]) / 3;

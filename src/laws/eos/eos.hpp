@@ -74,7 +74,7 @@ struct EosEntry {
   std::vector<EosReference> references;
   /// Every law of this kind in a deck. The model has the curves.
   std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&, const Model&)> all;
-  /// Reports what the table of the keyword cannot report its cards.
+  /// Checks of its cards what the table of the keyword cannot check.
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 

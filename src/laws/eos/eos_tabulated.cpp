@@ -41,7 +41,7 @@ struct EosTabulated : VolumePoints {
 const char* const example = "1,0.5\n0.1,0.0,-0.5\n\n-1.0,0.0,10.0\n\n1.0,1.0,3.0\n\n";
 // The same towards expansion, without energy.
 const char* const cold = "1,0.5\n-0.5,0.0,0.1\n\n10.0,0.0,-1.0\n\n";
-// Towards 0, where nothing but the strain before states that there is a point.
+// Towards 0, where nothing but the strain before shows that there is a point.
 const char* const to_rest = "1\n-0.5,-0.25\n\n10.0,1.0\n\n";
 // The first one by curves, over -eV.
 const char* const by_curves =

@@ -99,7 +99,7 @@ struct StrengthEntry {
   std::vector<StrengthReference> references;
   /// Every law of this kind in a deck, by the id of its material. The model has the curves and tables.
   std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&, const Model&)> all;
-  /// Reports what the table of the keyword cannot report its cards.
+  /// Checks of its cards what the table of the keyword cannot check.
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 

@@ -145,7 +145,7 @@ Real force_of_motions(const std::vector<MeasuredMotion>& motions, const SensorAx
   return axis.of(force, moment);
 }
 
-/// Whether all whom the motions drive are reported; a body that is merged into another one is not.
+/// Whether all that the motions drive are listed; a body that is merged into another one is not.
 bool all_driven(const std::vector<MeasuredMotion>& motions, const World& world) {
   const std::vector<BoundaryForce> forces = all_forces(world, {.dt = 1});
   return !motions.empty() && std::all_of(motions.begin(), motions.end(), [&](const MeasuredMotion& m) {

@@ -47,7 +47,7 @@ Sensor sensor_of(const ForceSensor& card, const SensorAxis& axis) {
   return out;
 }
 
-/// Of other kinds of forces there is no sensor here; who asks for one is reported.
+/// Of other kinds of forces there is no sensor here; a request for one is reported.
 const RegisterSensors sensors_of_forces{
     [](const Deck& deck, const Model& model, const World&, Diagnostics& diagnostics) {
       std::vector<Sensor> out;

@@ -13,7 +13,7 @@ using namespace rules;
 
 const FieldRules cartesian{.allowed = {0}};
 
-/// Places in a system of the file are reported by its axes, which have length 1 whatever the file does.
+/// Locations in a system of the file are given along its axes, which have length 1 whatever the file does.
 template <class T, Id T::*Local>
 std::string refuse_scaling(T& card, const Affine& motion) {
   if (card.*Local == 0) return {};

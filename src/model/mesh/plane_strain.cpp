@@ -16,7 +16,8 @@ std::vector<std::set<Index>> nodes_of_parts(const Model& model) {
   std::vector<std::set<Index>> out(model.parts.size());
   for (const ModelSolid& solid : model.solids)
     for (const Index n : solid.all_corners())
-      if (n >= 0) out[static_cast<std::size_t>(solid.part)].insert(n);  // the deck has been reported others
+      if (n >= 0)
+        out[static_cast<std::size_t>(solid.part)].insert(n);  // the fault of the others has been reported
   for (const ModelShell& shell : model.shells)
     for (const Index n : shell.node) out[static_cast<std::size_t>(shell.part)].insert(n);
   return out;

@@ -24,7 +24,7 @@ IdSpace set_space(SetKind kind) {
 
 IdSpace member_space(SetKind kind) {
   static constexpr IdSpace spaces[] = {IdSpace::node, IdSpace::part, IdSpace::shell, IdSpace::solid,
-                                       IdSpace::node};  // a segment is reported by its nodes
+                                       IdSpace::node};  // a segment is named by its nodes
   return spaces[static_cast<std::size_t>(kind)];
 }
 

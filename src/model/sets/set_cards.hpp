@@ -1,5 +1,5 @@
 #pragma once
-// Cards of all *SET_ keywords. They differ in what a set holds (SetKind) and in how its members are reported
+// Cards of all *SET_ keywords. They differ in what a set holds (SetKind) and in how its members are given
 // (SetForm); everything else is one.
 #include <cmath>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace courant {
 /// What a set holds.
 enum class SetKind : std::uint8_t { node, part, shell, solid, segment };
 
-/// How the members are reported.
+/// How the members are given.
 enum class SetForm : std::uint8_t {
   list,       ///< their ids; segments: four nodes per row
   generate,   ///< ranges of ids: first, last, first, last, ...

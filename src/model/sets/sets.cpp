@@ -40,7 +40,7 @@ IdIndex index_of_ids(const std::vector<Entity>& entities) {
   return out;
 }
 
-/// "its nodes", "its sets", ...: what a set lacks that is reported by nothing.
+/// "its nodes", "its sets", ...: what a set lacks.
 std::string nothing_listed(SetKind kind, SetForm form) {
   if (form == SetForm::general) return "give a row such as ALL or PART below the first card";
   const bool sets = form == SetForm::add || form == SetForm::advanced || form == SetForm::intersect;

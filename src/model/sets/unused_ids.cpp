@@ -170,7 +170,7 @@ class UseFinder {
       for (std::size_t k = 0; k + 1 < first.size(); k += 2) ids.add_range(first[k], first[k + 1]);
   }
 
-  /// *SET_..._GENERAL, _ADD_ADVANCED: what a row's ids number is reported by a word or a number in it, not by
+  /// *SET_..._GENERAL, _ADD_ADVANCED: what a row's ids number is given by a word or a number in it, not by
   /// the table. They are taken for uses of whatever has such an id: none is called unused wrongly.
   void add_numbers_of(const Entry& entry) {
     const DeckFile& file = deck_.files[static_cast<std::size_t>(entry.file)];

@@ -1,6 +1,6 @@
 """Reads LS-DYNA's ASCII histories, of Courant and of LS-DYNA itself.
 
-Read are those of ASCII_NAMES: every one that `courant run` writes. The kind is reported by the content, not by the name. Taken as they come: titles, legends, columns that newer versions append, slave and master for SURFA and
+Read are those of ASCII_NAMES: every one that `courant run` writes. The kind follows from the content, not from the name. Taken as they come: titles, legends, columns that newer versions append, slave and master for SURFA and
 SURFB, exponents without E (0.1-100), stars for numbers that did not fit. Where a run was restarted and its times go back,
 the later states count.
 """

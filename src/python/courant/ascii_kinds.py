@@ -155,7 +155,7 @@ class Text:
         return value
 
     def time(self, width: int, fault: str = "no number for the time") -> float:
-        """A time must be a number: states could not be distinguished."""
+        """A time must be a number: else one state could be taken for another."""
         t = self.certain(width, fault)
         if not math.isfinite(t):
             raise AsciiFault("the time is no finite number")

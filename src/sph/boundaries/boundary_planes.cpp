@@ -89,7 +89,7 @@ class PlaneBuilder {
   }
 
   /// What comes into the box later, from an inlet or from where nothing is solved, must not have come through
-  /// the planes before: when it is there is reported by its straight path.
+  /// the planes before: when it is there follows from its straight path.
   void check_arrivals(std::size_t k, const Region* box) {
     constexpr Real anywhere = 1e300;
     const Particles& p = world_.particles;

@@ -1,5 +1,5 @@
 #pragma once
-// How the flow of an inlet changes in time, and what *COURANT_INFLOW reports it over its height.
+// How the flow of an inlet changes in time, and what *COURANT_INFLOW prescribes over its height.
 #include <vector>
 
 #include "keyword/deck.hpp"

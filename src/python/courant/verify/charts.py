@@ -32,7 +32,7 @@ DARK = "@media screen and (prefers-color-scheme:dark){svg.chart{filter:invert(.9
 class Point:
     x: float
     y: float
-    hover: str = ""  # what is reported when the point is pointed at
+    hover: str = ""  # what is shown when the point is pointed at
 
 
 @dataclass
@@ -50,7 +50,7 @@ class Chart:
     x_label: str = ""
     y_label: str = ""
     logarithmic: bool = False
-    percent: bool = False  # y is a fraction that is reported in per cent
+    percent: bool = False  # y is a fraction that is shown in per cent
     lines: list[Line] = field(default_factory=list)
     front: list[Point] = field(default_factory=list)  # drawn as a broad light line and rings below the lines
     levels: list[tuple[str, float]] = field(default_factory=list)  # name and y of horizontal dashed lines
