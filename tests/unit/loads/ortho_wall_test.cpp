@@ -148,6 +148,6 @@ TEST(OrthoWall, IsRefusedByName) {
   EXPECT_NE(faults(floor_with("0.1,0.1,0.1,0.1", "1,12")).find("node 1 carries a particle"),
             std::string::npos);
   EXPECT_NE(faults("*RIGIDWALL_PLANAR_ORTHO\n0\n0.,0.,0.,0.,1.,0.,0.3\n0.1,0.1,0.1,0.1\n0,0,1.0\n")
-                .find("stands beside the friction of _ORTHO"),
+                .find("is given with the friction of _ORTHO"),
             std::string::npos);
 }

@@ -117,7 +117,7 @@ class Oracle {
     e.f -= Vi * Vj * (p_.p[i] + p_.p[j]) * G;
     if (case_.stress) e.f += Vi * Vj * (tau_->tensor(i) + tau_->tensor(j)) * G;
     if (!case_.monaghan || s <= 0) return;
-    const Real mV = p_.m[0] * p_.m[0] / p_.rho[0];
+    const Real mV = std::exp2(std::floor(std::log2(p_.m[0] * p_.m[0] / p_.rho[0])));
     const Real mu_of_s = -h * unit / (g * (r2 + 0.01 * h * h));
     const Real w = mu_of_s * p_.m[i] * p_.m[j] / ((p_.rho[i] + p_.rho[j]) * mV);
     const Real Q = rounded_to_float16(0.1 * (p_.c[i] + p_.c[j]) * w);
