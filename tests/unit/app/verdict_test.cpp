@@ -98,8 +98,9 @@ TEST(Verdict, MomentumOfMassAddedOnTheWay) {
   s.maxima = {{"momentum_of_added_mass", 0.0099}, {"momentum_of_nodes", 1}};
   EXPECT_EQ(verdict(s), "sound");
   s.maxima["momentum_of_added_mass"] = 0.0101;
-  EXPECT_THAT(texts(findings(s)), ElementsAre(HasSubstr("mass that DT2MS added during the run brought momentum "
-                                                        "with it, 1.01 % of that of all nodes")));
+  EXPECT_THAT(texts(findings(s)),
+              ElementsAre(HasSubstr("mass that DT2MS added during the run brought momentum "
+                                    "with it, 1.01 % of that of all nodes")));
 }
 
 // A limit of its own may be the stricter one.

@@ -533,7 +533,8 @@ TEST(MatPiecewiseLinearPlasticity, ChecksItsCards) {
   complains("1,1.0,1.0,0.3,0.1\n,,9\n", "there is no curve or table 9");
   complains("1,1.0,1.0,0.3,0.1\n,,,9\n", "curve 9 does not exist");
   complains("1,1.0,1.0,0.3,0.1\n,,,,3\n", "VP");
-  complains("1,1.0,1.0,0.3,0.1\n1.0,1.0,,1\n\n\n*DEFINE_CURVE\n1\n0.0,1.0\n1.0,2.0\n", "is given with C and P");
+  complains("1,1.0,1.0,0.3,0.1\n1.0,1.0,,1\n\n\n*DEFINE_CURVE\n1\n0.0,1.0\n1.0,2.0\n",
+            "is given with C and P");
   complains("1,1.0,1.0,0.3,0.1\n,,,1\n\n\n*DEFINE_CURVE\n1\n0.0,1.0\n1.0,0.0\n", "not > 0");
   complains("1,1.0,1.0,0.3\n\n0.1,0.2\n1.0,2.0\n", "EPS1");
   complains("1,1.0,1.0,0.3\n,,1\n\n\n*DEFINE_CURVE\n1\n0.0,0.0\n1.0,1.0\n", "yield stresses > 0");

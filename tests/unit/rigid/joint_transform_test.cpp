@@ -54,7 +54,8 @@ TEST(MovedJoints, StiffnessKnowsWhatItCannotFollow) {
   const auto says = [](const Moved& m, const char* what) {
     return m.messages.find(what) != std::string::npos;
   };
-  EXPECT_TRUE(says(moved("MIRROR,1.5,0.,0.,4.,0.,0.", stiffness("5")), "its angles would change their sign in a mirror"));
+  EXPECT_TRUE(says(moved("MIRROR,1.5,0.,0.,4.,0.,0.", stiffness("5")),
+                   "its angles would change their sign in a mirror"));
   EXPECT_TRUE(says(moved("ROTATE,0.,0.,1.,0.,0.,0.,90.", stiffness("0")), "do not turn with the file"));
   EXPECT_FALSE(says(moved("ROTATE,0.,0.,1.,0.,0.,0.,90.", stiffness("5")), "angles"));
   EXPECT_FALSE(says(moved("TRANSL,1.,2.,3.", stiffness("0")), "angles"));
