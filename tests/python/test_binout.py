@@ -334,4 +334,4 @@ def test_a_report_says_what_a_run_did_not_write(tmp_path: Path) -> None:
 
     (tmp_path / "summary.yaml").write_text("title: <b>odd</b>\nverdict: healthy\n")
     text = page_of([courant.open(tmp_path)])
-    assert "no results here" in text and "<b>odd</b>" not in text and "&lt;b&gt;odd" in text
+    assert "the run has written no states" in text and "<b>odd</b>" not in text and "&lt;b&gt;odd" in text
