@@ -135,7 +135,6 @@ class StressReader {
   StressReader(const Deck& deck, const Model& model, const World& world, Diagnostics& diagnostics,
                const std::vector<SolidPart>& solids, const std::vector<ShellPart>& shells)
       : deck_(deck),
-        model_(model),
         world_(world),
         diagnostics_(diagnostics),
         choice_(deck, model, world, diagnostics),
@@ -356,7 +355,6 @@ class StressReader {
   }
 
   const Deck& deck_;
-  const Model& model_;
   const World& world_;
   Diagnostics& diagnostics_;
   ElementChoice choice_;

@@ -23,7 +23,6 @@ class NodeContactBuilder {
   NodeContactBuilder(const Deck& deck, const Model& model, const NodeContactOptions& options, World& world,
                      Diagnostics& diagnostics)
       : deck_(deck),
-        model_(model),
         options_(options),
         world_(world),
         diagnostics_(diagnostics),
@@ -259,7 +258,6 @@ class NodeContactBuilder {
   }
 
   const Deck& deck_;
-  const Model& model_;
   const NodeContactOptions& options_;
   World& world_;
   Diagnostics& diagnostics_;

@@ -218,7 +218,7 @@ class Cscm : public StrengthLaw {
     Real overstress = 0, share = 1;
   };
   /// `x`: I/sqrt(3 J2) of the trial state.
-  Viscosity viscosity(const PointBlock& block, Index i, Real x) const {
+  Viscosity viscosity_at(const PointBlock& block, Index i, Real x) const {
     // of the deviator; where nearly all changes the volume alone, of that, else the cap would never flow
     const Real volumetric = std::abs(block.rate[0][i] + block.rate[1][i] + block.rate[2][i]);
     const Real rate =
@@ -246,7 +246,7 @@ class Cscm : public StrengthLaw {
     const Returned on = return_to_surface(I, s, sin3, block.history[compaction][i]);
     const Real scale = s > 0 ? on.s / s : 1,
                x = s > 0 ? I / (root_of_3 * s) : (I < 0 ? -unbounded : unbounded);
-    const Viscosity v = on.flows ? viscosity(block, i, x) : Viscosity{};
+    const Viscosity v = on.flows ? viscosity_at(block, i, x) : Viscosity{};
     block.history[compaction][i] += v.share * (on.compaction - block.history[compaction][i]);
     const Real now_I = I + v.share * (on.I - I), factor = 1 + v.share * (scale - 1);
     const Real dev[6] = {a, b, c, d, e, f};
