@@ -26,7 +26,7 @@ const VtkArray* find(const VtkDataSet& set, const std::string& name) {
 template <class T>
 void append(const std::string& bytes, std::vector<Real>& out) {
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
   out.insert(out.end(), values.begin(), values.end());
 }
 /// Values of whatever type.
