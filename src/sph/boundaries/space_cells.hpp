@@ -16,7 +16,9 @@ class SpaceCells {
     constexpr int bits = 21;  // for each axis
     std::uint64_t key = 0;
     for (int k = 0; k < 3; ++k) {
-      const auto place = static_cast<std::int64_t>(std::floor(x[k] / size_));
+      const Real cell = std::floor(x[k] / size_);
+      constexpr Real most = 9e18;  // what an integer holds
+      const std::int64_t place = std::abs(cell) < most ? static_cast<std::int64_t>(cell) : 0;
       key = key << bits | (static_cast<std::uint64_t>(place) & ((std::uint64_t(1) << bits) - 1));
     }
     return key;
