@@ -105,7 +105,10 @@ class InteriorContact : public Force, public TimeLimit, public EnergyTerm {
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_start().reads(world.nodes.x, Reach::others).reads(world.nodes.v, Reach::others);
-    a.in_start().reads(group_.node, Reach::others);
+    a.in_start()
+        .reads(group_.node, Reach::others)
+        .reads(group_.V0, Reach::others)
+        .reads(group_.mass, Reach::others);
     if (eroded_) a.reads(*eroded_, Reach::others);
     a.in_block().updates(world.nodes.f);
   }
