@@ -13,9 +13,11 @@ set -uo pipefail
 quick=
 [ "${1:-}" != --quick ] || { quick=yes; shift; }
 mkdir -p "$logs"
-sets=(baseline)
-grep -qw avx2 /proc/cpuinfo && sets+=(avx2)
-grep -qw avx512vl /proc/cpuinfo && sets+=(avx512)
+case $(other_instruction_sets) in
+  avx2) sets=(baseline avx2 avx512) ;;
+  avx512) sets=(baseline avx2) ;;
+  *) sets=(baseline) ;;
+esac
 flags='-O0 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined'
 options=(-DCOURANT_INSTRUMENT_ALL=ON)
 targets=(unit_tests fuzz_replay fuzz_readers courant)

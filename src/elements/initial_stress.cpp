@@ -159,19 +159,18 @@ class StressReader {
   }
 
   void finish() {
-    if (beyond_.points > 0)
-      diagnostics_.warning(
-          deck_.where(*beyond_.first),
-          text_of(beyond_,
-                  "{}: the stress of {} points is beyond what the material yields at: it comes back "
-                  "to that in the first step"),
-          "check units, material and EPS");
-    if (directional_.points > 0)
-      diagnostics_.warning(deck_.where(*directional_.first),
-                           text_of(directional_,
-                                   "{}: {} points start without the elastic energy of their stress, as their "
-                                   "material has directions: internal energy may fall below 0 by it"),
-                           "motion and stress do not depend on it");
+    const auto warn = [&](const Noted& of, Counted text, const char* hint) {
+      if (of.points > 0) diagnostics_.warning(deck_.where(*of.first), text_of(of, text), hint);
+    };
+    warn(beyond_,
+         "{}: the stress of {} points is beyond what the material yields at: it comes back to that in the "
+         "first "
+         "step",
+         "check units, material and EPS");
+    warn(directional_,
+         "{}: {} points start without the elastic energy of their stress, as their material has directions: "
+         "internal energy may fall below 0 by it",
+         "motion and stress do not depend on it");
     if (more_.points > 0)
       diagnostics_.note(deck_.where(*more_.first),
                         text_of(more_,
@@ -188,7 +187,8 @@ class StressReader {
       if (points++ == 0) first = &card;
     }
   };
-  std::string text_of(const Noted& noted, fmt::format_string<std::string, const std::size_t&> text) const {
+  using Counted = fmt::format_string<std::string, const std::size_t&>;
+  std::string text_of(const Noted& noted, Counted text) const {
     return fmt::format(text, deck_.keyword(*noted.first), noted.points);
   }
 

@@ -13,10 +13,10 @@ namespace courant {
 
 namespace {
 
-/// Elements write forces of their corners, or sums of blocks of them, to positions of their own; nobody adds
-/// to a node but the thread that has its block. In meshes whose nodes are numbered as bricks usually are, a
-/// node is corner c of one element at most: a table states which, for each corner, and neighbouring nodes
-/// read neighbouring numbers. The rest is a list.
+/// Elements write forces of their corners, or sums of blocks of them, to positions of their own; no other
+/// pass adds to a node but the thread that has its block. In meshes whose nodes are numbered as bricks
+/// usually are, a node is corner c of one element at most: a table states which, for each corner, and
+/// neighbouring nodes read neighbouring numbers. The rest is a list.
 class NodalAssembly : public Force {
  public:
   explicit NodalAssembly(const World& world, Field<Real>& force, Field<Real>* moment)

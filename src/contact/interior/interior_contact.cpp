@@ -1,4 +1,4 @@
-// *CONTACT_INTERIOR: hexahedra of foam keep a thickness. Equations: docs/theory.md.
+// *CONTACT_INTERIOR: hexahedra of foam keep a thickness. Equations: docs/theory_contact.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "keyword/registry.hpp"
 #include "model/model.hpp"
 #include "model/sets/set_cards.hpp"
+#include "parallel/counting_sort.hpp"
 #include "parallel/parallel.hpp"
 #include "state/shared_fields.hpp"
 #include "state/world.hpp"
@@ -92,14 +93,10 @@ class InteriorContact : public Force, public TimeLimit, public EnergyTerm {
       for (std::size_t d = 0; d < 3; ++d)
         start_[static_cast<std::size_t>(e)][d] = thickness_along(edges, d).h;
     }
-    std::vector<Index> count_of(static_cast<std::size_t>(world.nodes.size()) + 1, 0);
-    for_corners([&](Index n, Index, int) { ++count_of[static_cast<std::size_t>(n) + 1]; });
-    for (std::size_t n = 1; n < count_of.size(); ++n) count_of[n] += count_of[n - 1];
-    first_ = count_of;
-    corner_.resize(static_cast<std::size_t>(first_.back()));
-    for_corners([&](Index n, Index e, int c) {
-      corner_[static_cast<std::size_t>(count_of[static_cast<std::size_t>(n)]++)] = {e, c};
-    });
+    std::vector<Index> node;
+    for (Index e = 0; e < group.size(); ++e)
+      for (int c = 0; c < static_cast<int>(corners); ++c) node.push_back(group.node.data(c)[e]);
+    counting_sort(node, world.nodes.size(), first_, corner_);
   }
   std::string name() const override { return "interior contact of " + group_.fields.name(); }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
@@ -120,10 +117,8 @@ class InteriorContact : public Force, public TimeLimit, public EnergyTerm {
     if (!any_) return;
     for (Index n = begin; n < end; ++n)
       for (Index k = first_[static_cast<std::size_t>(n)]; k < first_[static_cast<std::size_t>(n) + 1]; ++k) {
-        const Corner& at = corner_[static_cast<std::size_t>(k)];
-        if (active_[static_cast<std::size_t>(at.element)] != 0)
-          world.nodes.f.add(
-              n, force_[static_cast<std::size_t>(at.element)][static_cast<std::size_t>(at.corner)]);
+        const auto at = static_cast<std::size_t>(corner_[static_cast<std::size_t>(k)]);
+        if (active_[at / corners] != 0) world.nodes.f.add(n, force_[at / corners][at % corners]);
       }
   }
   /// 2/omega of the stiffest pressed element, of its own mass; and no thickness halves in a step.
@@ -142,15 +137,6 @@ class InteriorContact : public Force, public TimeLimit, public EnergyTerm {
   }
 
  private:
-  struct Corner {
-    Index element = 0;
-    int corner = 0;
-  };
-  template <class Take>
-  void for_corners(const Take& take) const {
-    for (Index e = 0; e < group_.size(); ++e)
-      for (int c = 0; c < static_cast<int>(corners); ++c) take(group_.node.data(c)[e], e, c);
-  }
   std::array<Vec, corners> corners_of(const Field<Real>& of, Index e) const {
     std::array<Vec, corners> out;
     for (std::size_t c = 0; c < corners; ++c) out[c] = of.vec(group_.node.data(static_cast<int>(c))[e]);
@@ -193,8 +179,7 @@ class InteriorContact : public Force, public TimeLimit, public EnergyTerm {
   std::vector<std::array<Vec, corners>> force_;  ///< of active elements [ML/T2]
   std::vector<Real> energy_, omega2_;            ///< [ML2/T2], [1/T2]
   std::vector<char> active_;                     ///< by element
-  std::vector<Index> first_;                     ///< of each node: of corner_
-  std::vector<Corner> corner_;
+  std::vector<Index> first_, corner_;            ///< of each node the first of corner_: 8 e + c
   bool any_ = false;
 };
 

@@ -10,6 +10,7 @@
 #include "elements/beam/beam_frame.hpp"
 #include "elements/beam/beams.hpp"
 #include "elements/beam/elastic_beam.hpp"
+#include "elements/element_laws.hpp"
 #include "elements/element_report.hpp"
 #include "elements/mass_scaling.hpp"
 #include "elements/null_elements.hpp"
@@ -61,10 +62,9 @@ class BeamForces : public Material,
     G_ = part_.law->shear_modulus(), E_ = 9 * K * G_ / (3 * K + G_);
     for (Index e = 0; e < group_.size(); ++e) {
       start_[e] = between_ends(world.nodes.x, e).norm();
-      for (Field<Real>* h : history_)
-        if (h->info().name.rfind(element_size, 0) == 0) (*h)[e] = start_[e];
       for (int c = 0; c < 2; ++c) put_end(e, c, Quaternion(part_.axes[at(e)]));
     }
+    for (Field<Real>* h : history_) lay_size(*h, group_.size(), [&](Index e) { return start_[e]; });
     if (shown) add_shown_fields();
     if (part_.weld) sections_.emplace(*part_.weld, group_);
     if (part_.weld && part_.weld->dt > 0) scale_masses(world);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/run_error.hpp"
+#include "elements/element_laws.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/null_elements.hpp"
 #include "elements/point_strains.hpp"
@@ -382,8 +383,7 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
 
   void lay_sizes() {
     for (Field<Real>* h : history_)
-      for (Index e = 0; h->info().name.rfind(element_size, 0) == 0 && e < group_.size(); ++e)
-        (*h)[e] = std::sqrt(group_.V0[e] / thickness_[e]);
+      lay_size(*h, group_.size(), [&](Index e) { return std::sqrt(group_.V0[e] / thickness_[e]); });
   }
 
   Real total(const Field<Real>& field) const {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "elements/element_laws.hpp"
+
 namespace courant {
 
 void check_directions(const Deck& deck, const Model& model, Index part, const MaterialAxes& axes,
@@ -44,9 +46,8 @@ void lay_directions(const MaterialAxes& axes, const ElementGroup& group, const S
 
 void lay_sizes(const ElementGroup& group, const std::vector<Field<Real>*>& history, FullPoints* points) {
   for (std::size_t h = 0; h < history.size(); ++h) {
-    if (history[h]->info().name != element_size) continue;
-    for (Index e = 0; e < group.size(); ++e) (*history[h])[e] = std::cbrt(group.V0[e]);
-    if (points) points->set_number(h, *history[h]);
+    const auto side = [&](Index e) { return std::cbrt(group.V0[e]); };
+    if (lay_size(*history[h], group.size(), side) && points) points->set_number(h, *history[h]);
   }
 }
 

@@ -213,14 +213,19 @@ bool begins_with_words(const std::string& text, const std::string& words) {
   return text.size() == words.size() || text[words.size()] == '_' || text[words.size()] == '-';
 }
 
+bool begins_with_any(const std::string& text, const std::vector<std::string>& all) {
+  return std::any_of(all.begin(), all.end(),
+                     [&](const std::string& words) { return begins_with_words(text, words); });
+}
+
 /// No slips of the pen, though near to the name of something else.
 bool is_known(const std::string& name) {
-  for (const char* known :
-       {"DATABASE_RWFORC", "DATABASE_PBSTAT", "DATABASE_ACEOUT", "BOUNDARY_SPC_SYMMETRY_PLANE", "CONTROL_CPM",
-        "ELEMENT_TSHELL", "LOAD_BODY_RX", "LOAD_BODY_RY", "LOAD_BODY_RZ", "SECTION_FPD", "SECTION_TSHELL",
-        "SET_MODE", "SET_NODE_GENERAL"})
-    if (begins_with_words(name, known)) return true;
-  return find_law(name) || has_law_number(name);
+  static const std::vector<std::string> known{
+      "DATABASE_RWFORC", "DATABASE_PBSTAT", "DATABASE_ACEOUT", "BOUNDARY_SPC_SYMMETRY_PLANE",
+      "CONTROL_CPM",     "ELEMENT_TSHELL",  "LOAD_BODY_RX",    "LOAD_BODY_RY",
+      "LOAD_BODY_RZ",    "SECTION_FPD",     "SECTION_TSHELL",  "SET_MODE",
+      "SET_NODE_GENERAL"};
+  return begins_with_any(name, known) || find_law(name) || has_law_number(name);
 }
 
 /// The candidate with the fewest edits, at most `most`; empty: none.
@@ -271,15 +276,11 @@ std::vector<std::string> unused_definitions() {
 }
 
 bool is_unused_definition(const std::string& name) {
-  for (const std::string& words : unused_definitions())
-    if (begins_with_words(name, words)) return true;
-  return false;
+  return begins_with_any(name, unused_definitions());
 }
 
 bool is_output_request(const std::string& name) {
-  for (const std::string& words : output_requests())
-    if (begins_with_words(name, words)) return true;
-  return false;
+  return begins_with_any(name, output_requests());
 }
 
 std::vector<std::pair<std::string, std::string>> refused_families() {

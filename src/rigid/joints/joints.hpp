@@ -105,7 +105,7 @@ class Joints : public BodyTies,
   void soften(std::size_t at);
   /// Joints of closed loops with a row that adds almost nothing to others.
   std::vector<std::size_t> find_misfits() const;
-  /// Sizes against which lengths of a joint count: of coordinates, whose round-off nobody can fix, and of
+  /// Sizes against which lengths of a joint count: of coordinates, whose round-off is unavoidable, and of
   /// the smaller of the bodies that can move [L].
   std::array<Real, 2> sizes(const Joint& joint) const;
   void find_rooms(const std::vector<JointRow>& rows);

@@ -25,7 +25,7 @@ struct WallPoint {
 /// Whether any of its nodes can.
 bool segment_moves(const World& world, Index segment);
 
-/// Where somebody may look from: cells about `reach` wide, and which of them particles are in.
+/// Where walls may be seen from: cells about `reach` wide, and which of them particles are in.
 class Lookouts {
  public:
   Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes);
@@ -171,7 +171,7 @@ class WallSurface {
   void sort_into_cells();
   bool near(Index point, const Vec& x) const { return (at_[point] - x).squaredNorm() < reach_ * reach_; }
   int cells_around(const Vec& x, std::array<Index, 27>& cells) const;
-  /// Faces of one plane that may be between somebody and what is on its other side.
+  /// Faces of one plane that may be between a particle and what is on its other side.
   struct Screen {
     Index plane = 0;
     Vec n = Vec::Zero();

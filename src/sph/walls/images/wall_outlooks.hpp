@@ -23,7 +23,7 @@ struct WallOutlook {
   const WallRoom* room_of(const Vec& x, Real sight) const;
 };
 
-/// Walls that are held look the same from a position whenever somebody comes there, so each cell is looked
+/// Walls that are held look the same from a position at any time, so each cell is looked
 /// from once. What is in sight of a particle when neighbours are searched stays so until the next search.
 class WallOutlooks {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-// The ways on which particles see each other beside walls: straight, hidden, or thrown back.
+// The ways on which particles see each other beside walls: straight, hidden, or reflected.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -51,12 +51,12 @@ struct OpenRoom {
 
 /// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
 /// way from i to the image goes through that wall, and so does j, since the path back is the same. Images of
-/// images fill corners, again where the path, thrown back by one wall after the other, meets each of them.
+/// images fill corners, again where the path, reflected by one wall after the other, meets each of them.
 /// Particles that a wall is between do not meet. So whatever direction i looks in, it sees water just as
 /// far as its kernel reaches, at any number of walls, at their ends and on both sides of them.
 ///
 /// Where a wall ends, and where the next one turns away from the water, a way that passes the edge goes over
-/// from thrown back (or hidden) to nothing within one width, half of it on each side, smoothly: else
+/// from reflected (or hidden) to nothing within one width, half of it on each side, smoothly: else
 /// particles would come and go at once. What the wall no longer throws back is what it no longer hides.
 ///
 /// Walls may move as rigid bodies: `take_along` states where they are, and `place` brings sheets there. How a
@@ -81,7 +81,7 @@ class WallPaths {
     Vec from = Vec::Zero(), to = Vec::Zero();
     bool is_within(const Box& b) const { return b.meets({from.cwiseMin(to), from.cwiseMax(to)}); }
   };
-  /// A flat piece of wall as somebody sees it; `endless`: nothing else, and none of its edges.
+  /// A flat piece of wall as it is seen; `endless`: nothing else, and none of its edges.
   struct Sheet {
     Vec n = Vec::Zero();
     Real offset = 0;
@@ -159,8 +159,8 @@ class WallPaths {
   static Some bit(std::size_t k) { return Some(1) << std::min<std::size_t>(k, 63); }
   static bool has(Some some, std::size_t k) { return (some & bit(k)) != 0; }
   class Standpoint;
-  /// Looks from x, as far as the kernel reaches, at sheets, which must stay where they are as long as
-  /// somebody is there [L].
+  /// Looks from x, as far as the kernel reaches, at sheets, which must stay where they are while the
+  /// result is in use [L].
   void stand(const Sheets& sheets, const Vec& x, Real reach, Standpoint& to) const;
   /// Appends the paths from particle i, that is there, to j at y, that walls change.
   void add(Standpoint& from, Index i, Index j, const Vec& y, std::vector<WallPath>& to,
