@@ -13,8 +13,8 @@ namespace courant {
 
 namespace {
 
-/// Elements write forces of their corners, or sums of blocks of them, to positions of their own; no other
-/// pass adds to a node but the thread that has its block. In meshes whose nodes are numbered as bricks
+/// Elements write forces of their corners, or sums of blocks of them, to positions of their own; only
+/// the thread that has the block of a node adds to it. In meshes whose nodes are numbered as bricks
 /// usually are, a node is corner c of one element at most: a table states which, for each corner, and
 /// neighbouring nodes read neighbouring numbers. The rest is a list.
 class NodalAssembly : public Force {
