@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "../sanitized.hpp"
 #include "mutate.hpp"
 #include "output/restart_file.hpp"
 
@@ -212,10 +213,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "fuzz_readers: the folders of runs are missing\n");
     return 2;
   }
-#ifndef __SANITIZE_ADDRESS__
-  const rlimit most{std::size_t(4) << 30u, std::size_t(4) << 30u};
-  setrlimit(RLIMIT_AS, &most);
-#endif
+  if (!test::address_sanitizer) {
+    const rlimit most{std::size_t(4) << 30u, std::size_t(4) << 30u};
+    setrlimit(RLIMIT_AS, &most);
+  }
   const fs::path work = fs::temp_directory_path() / fmt::format("courant_fuzz_{}", getpid());
   fs::create_directories(work);
   std::printf("inputs in %s\n", work.c_str());

@@ -3,6 +3,7 @@
 
 #include <ctime>
 
+#include "../../sanitized.hpp"
 #include "decks_in_memory.hpp"
 #include "keyword/conversion.hpp"
 #include "keyword/registry.hpp"
@@ -41,11 +42,8 @@ std::string nodes(int count) {
   return out;
 }
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr double soon = 20.0;  // s; instructions of the sanitizers make all of it 10 to 60 times as slow
-#else
-constexpr double soon = 1.0;  // s; all below take a few hundredths
-#endif
+// s. All below take a few hundredths; instructions of the sanitizers make that 10 to 60 times as slow.
+constexpr double soon = test::address_sanitizer ? 20.0 : 1.0;
 
 }  // namespace
 
