@@ -49,6 +49,7 @@ class SceneWarnings {
 
  private:
   static constexpr std::size_t least_members = 8;  ///< fewer have no inside
+  static constexpr Real least_of_enclosed = 0.2;   ///< pressure, of the largest; at a free surface it is 0
 
   void warn_of_part(std::size_t part, const std::string& what, std::string hint) {
     const ModelPart& p = s_.model().parts[part];
@@ -91,6 +92,7 @@ class SceneWarnings {
       sides.push_back(sides_of(card));
       if (kind_of(card).nodes) met_.insert(sides.back().walls.begin(), sides.back().walls.end());
       if (kind_of(card).nodes && (card.fs > 0 || card.fd > 0)) contact_on_belts(card, sides.back().walls);
+      if (kind_of(card).nodes && &card == &cards.front()) diffusion_under_pressure(card);
       for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
         const bool apart = cards[k].dt <= card.bt || card.dt <= cards[k].bt;
         if (apart || !(sides[k] == sides.back())) continue;
@@ -115,6 +117,22 @@ class SceneWarnings {
                 "the surface of *COURANT_WALL_BELT",
                 s_.deck().keyword(card), s_.model().parts[static_cast<std::size_t>(part)].id),
             "leave FS and FD 0, and let *COURANT_WALL_SUPPORT rub");
+  }
+
+  /// Kernels end at shells that have no *COURANT_WALL_SUPPORT. Rows of particles there hold other pressures
+  /// than the rest, which diffusion evens out again and again: a closed ring loses half of its pressure while
+  /// sound crosses it five times (docs/study_fluid_structure.md). With a free surface the pressure follows
+  /// the depth.
+  void diffusion_under_pressure(const ContactCard& card) {
+    if (!(s_.sph().density_diffusion > 0) || !s_.sph().walls.segments.empty()) return;
+    const auto [least, most] = std::minmax_element(p_.p.data(), p_.p.data() + p_.active);
+    if (!(*least > least_of_enclosed * *most)) return;
+    diagnostics_.warning(
+        s_.deck().where(card),
+        fmt::format("{}: all particles begin under pressure, {:.3g} at least: water enclosed by "
+                    "shells or solids loses it by density diffusion",
+                    s_.deck().keyword(card), *least),
+        "remove *COURANT_DENSITY_DIFFUSION, or support rigid walls by *COURANT_WALL_SUPPORT");
   }
 
   void walls() {
