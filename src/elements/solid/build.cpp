@@ -118,6 +118,7 @@ SolidControl control_of(const SolidPart& part) {
                    .MU = part.law->viscosity()};
   const Real resolved = part.formulation->resolved_length;
   out.Q1 *= resolved * resolved, out.Q2 *= resolved;
+  if (!part.law->bulk_viscosity) out.Q1 = out.Q2 = 0;
   const Real K = part.bulk_modulus(), G = part.law->shear_modulus();
   constexpr Real usual = 13.0 / 6;  // K/G with a Poisson's ratio of 0.3
   if (part.formulation->linear_dilatation && !part.pressure)

@@ -16,7 +16,7 @@ class FailingLaw : public StrengthLaw {
  public:
   FailingLaw(std::shared_ptr<StrengthLaw> of, std::vector<HistoryVariable> more)
       : of_(std::move(of)), more_(std::move(more)) {
-    ro = of_->ro, failing_layers = of_->failing_layers;
+    ro = of_->ro, bulk_viscosity = of_->bulk_viscosity, failing_layers = of_->failing_layers;
     std::vector<HistoryVariable> all = of_->history();
     for (const HistoryVariable& h : all) kept_ += static_cast<std::size_t>(h.components);
     more_.push_back({"failure_ratio", "-"});

@@ -23,7 +23,7 @@ struct MatFuChangFoam : MatFuChangFoamFields {
 class RateFoam : public StrengthLaw {
  public:
   RateFoam(const MatFuChangFoam& card, const Model& model) : card_(card), curves_(model, card.tbid) {
-    ro = card.ro;
+    ro = card.ro, bulk_viscosity = card.bvflag == 1;
   }
   // as of Hooke's law without lateral contraction
   Real bulk_modulus() const override { return card_.E / 3; }
@@ -110,11 +110,12 @@ void MatFuChangFoam::check(const Deck& deck, const Model& model, Diagnostics& di
   one_of("SFLAG", sflag, {0, 1}, "0: rates of ln l; 1: of l");
   one_of("RFLAG", rflag, {0, 1, 2}, "0: of the largest strain; 1: of each direction; 2: of the volume");
   one_of("TFLAG", tflag, {0, 1}, "0: tension by E; 1: by the curves below 0");
+  one_of("BVFLAG", bvflag, {0, 1}, "0: no bulk viscosity; 1: that of *CONTROL_BULK_VISCOSITY");
   one_of("SRAF", sraf, {0, 1}, "0 and 1: a mean over some twelve steps");
   if (damp != 0)
     deck.warning(diagnostics, *this, "DAMP",
                  "the viscous stress of the foam is left out: stresses at high rates are lower",
-                 "bulk viscosity (*CONTROL_BULK_VISCOSITY) and hourglass control act as on all solids");
+                 "BVFLAG 1 takes bulk viscosity (*CONTROL_BULK_VISCOSITY)");
   if (tbid == 0)
     return deck.error(diagnostics, *this, "TBID", "the form by constants is not supported",
                       "a *DEFINE_TABLE of curves over rates of strain");

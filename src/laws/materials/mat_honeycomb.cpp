@@ -57,7 +57,7 @@ class Honeycomb : public StrengthLaw {
  public:
   Honeycomb(const MatHoneycomb& card, const Model& model)
       : card_(card), axes_(card.axes(model, 0)), loose_(card.loose()) {
-    ro = card.ro;
+    ro = card.ro, bulk_viscosity = card.bulk == 1;
     const std::array<Id, 6> ids = card.curves();
     for (std::size_t k = 0; k < 6; ++k)
       if (const auto found = model.curves.find(ids[k]); found != model.curves.end())
@@ -173,7 +173,7 @@ void MatHoneycomb::check(const Deck& deck, const Model& model, Diagnostics& diag
   if (mu != standard_mu && bulk != 1)
     deck.warning(diagnostics, *this, "MU",
                  "the viscous stress of the honeycomb is left out: stresses at high rates are lower",
-                 "bulk viscosity (*CONTROL_BULK_VISCOSITY) and hourglass control act as on all solids");
+                 "BULK 1 takes bulk viscosity (*CONTROL_BULK_VISCOSITY)");
   const auto check_curve = [&](const char* field, Id id, bool of_crush) {
     const auto found = model.curves.find(id);
     if (id == 0 || found == model.curves.end()) return;
@@ -231,7 +231,7 @@ const RegisterStrength<HC> mat_honeycomb{
                       "-",
                       "viscous stress: left out; another value than the standard with a warning",
                       {.standard = 0.05}},
-                     {"BULK", &HC::bulk, "-", "bulk viscosity, which acts here as on all solids: 0 or 1"}}},
+                     {"BULK", &HC::bulk, "-", "bulk viscosity: off (0), on (1)"}}},
          {.fields = {{"LCA", &HC::lca, "-",
                       "curve of the most stress along a over 1 - V (it begins at 0 or below), or over V",
                       rules::over(rules::required_id_of(IdSpace::curve), "-", "M/LT2")},

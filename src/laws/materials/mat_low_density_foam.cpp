@@ -46,9 +46,9 @@ struct FoamCurve {
 /// the energy W of compression.
 class LowDensityFoam : public StrengthLaw {
  public:
-  LowDensityFoam(Real density, FoamCurve curve, Real HU, Real shape)
+  LowDensityFoam(Real density, FoamCurve curve, Real HU, Real shape, bool viscous)
       : curve_(std::move(curve)), unloading_(HU), shape_(shape) {
-    ro = density;
+    ro = density, bulk_viscosity = viscous;
   }
   // as of Hooke's law without lateral contraction
   Real bulk_modulus() const override { return curve_.E / 3; }
@@ -108,7 +108,7 @@ struct MatLowDensityFoam : MatLowDensityFoamFields {
                   .tension = tc,
                   .tears = fail == 1,
                   .f = curve == model.curves.end() ? Curve() : curve->second},
-        hu, shape);
+        hu, shape, bvflag == 1);
   }
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const;
 };
@@ -121,10 +121,12 @@ void LowDensity::check(const Deck& deck, const Model& model, Diagnostics& diagno
          "the share of stress that is left where all of it has been unloaded; 1: none is lost");
   expect(fail == 0 || fail == 1, "FAIL", fmt::format("expected 0 or 1, got '{:g}'", fail),
          "0: the tension stays TC; 1: it is gone beyond TC");
+  expect(bvflag == 0 || bvflag == 1, "BVFLAG", fmt::format("expected 0 or 1, got '{:g}'", bvflag),
+         "0: no bulk viscosity; 1: that of *CONTROL_BULK_VISCOSITY");
   if (damp != 0)
     deck.warning(diagnostics, *this, "DAMP",
                  "the viscous stress of the foam is left out: stresses at high rates are lower",
-                 "bulk viscosity (*CONTROL_BULK_VISCOSITY) and hourglass control act as on all solids");
+                 "BVFLAG 1 takes bulk viscosity (*CONTROL_BULK_VISCOSITY)");
   const auto found = model.curves.find(lcid);
   if (found == model.curves.end()) return;
   const std::vector<Real>&strain = found->second.abscissa, &stress = found->second.ordinate;

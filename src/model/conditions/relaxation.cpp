@@ -109,7 +109,7 @@ Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particle
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(entry.keyword)];
     if ((of_relaxation || curve->second.sidr != 0) && spec.names[0].starts_with("LOAD_"))
       out.at_once = out.at_once || begins_above_none(curve->second);
-    if (!of_relaxation && curve->second.sidr != 0 && (most == 0 || curve->second.sidr == 1))
+    if (curve->second.sidr != 0 && (most == 0 || curve->second.sidr == 1))
       most = curve->second.sidr, of_load = entry;
   });
   if (card) out.check_every = card->nrcyck, out.tolerance = card->drtol, out.factor = card->drfctr;

@@ -139,6 +139,14 @@ TEST(Relaxation, CurvesActInTheirPhase) {
   // SIDR 2 asks by itself
   EXPECT_TRUE(built(cantilever(square_2, 10, "", 2), RunPhase::transient)->relaxation().asked);
   EXPECT_FALSE(built(cantilever(square_2, 10, "", 0), RunPhase::transient)->relaxation().asked);
+  // so does a curve of the relaxation alone, LCIDDR
+  for (const int sidr : {0, 1, 2}) {
+    const std::string weight = fmt::format(
+        "*LOAD_BODY_Z\n90,1.0,91\n*DEFINE_CURVE\n90\n0,1\n10,1\n"
+        "*DEFINE_CURVE\n91,{}\n0,1\n10,1\n",
+        sidr);
+    EXPECT_EQ(built(cantilever(square_2, 10, weight, 0), RunPhase::transient)->relaxation().asked, sidr != 0);
+  }
 }
 
 TEST(Relaxation, ThatDoesNotConvergeIsTold) {
