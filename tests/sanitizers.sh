@@ -22,6 +22,8 @@ flags='-O0 -g1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitiz
 options=(-DCOURANT_INSTRUMENT_ALL=ON)
 targets=(unit_tests fuzz_replay fuzz_readers courant)
 export OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive
+echo 'leak:libomp.so' >"$logs/leaks_of_others"  # what clang's OpenMP keeps of threads that have ended
+export LSAN_OPTIONS=suppressions=$logs/leaks_of_others
 if [ -n "$quick" ]; then
   build=$project/build/sanitized_quick
   sets=("${sets[-1]}") flags=${flags/-g1/-g0}

@@ -252,7 +252,7 @@ void NodeContact::start(World& world, const Clock& clock) {
 void NodeContact::block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
   b.touches.clear(), b.leaked.clear();
-  b.let_go = 0;
+  b.let_go = 0, b.jumped = 0;
   if (asleep_ || b.idle) return;
   for (Index i = begin; i < end; ++i) touch(world, clock, b, i);
 }
@@ -263,6 +263,7 @@ void NodeContact::finish(World& world, const Clock& clock) {
   for (const Block& b : blocks_) {
     touches_.insert(touches_.end(), b.touches.begin(), b.touches.end());
     let_go_ += b.let_go;
+    if (b.jumped > 0) world.counters["contact_depth_jumps"] += b.jumped;
     for (const Index i : b.leaked) {
       if ((*leaked_)[i]) continue;
       (*leaked_)[i] = 1;

@@ -160,6 +160,7 @@ class NodeContact : public Force,
     bool idle = false;                    ///< none of its nodes touches anything or has anything near
     std::vector<Touch> touches;
     std::vector<Index> leaked;  ///< tracked nodes
+    Index jumped = 0;           ///< touches that were suddenly deeper
     std::vector<Seen> seen;     ///< scratch
     Real damping_work = 0, friction_work = 0;
     Real let_go = 0;  ///< energy of touches with faces that are deleted [ML2/T2]
@@ -209,6 +210,7 @@ class NodeContact : public Force,
   bool has_faces(const ContactNode& n) const;
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
+  bool jumps(const World& world, const Clock& clock, Index i, const Slot& slot) const;
   bool is_taken(const Slots& slots, Index face) const;
   bool goes_on(const Slots& slots, const Seen& seen) const;
   void give_stiffness(const World& world, Index i, Slot& slot) const;

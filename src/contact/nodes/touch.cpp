@@ -132,6 +132,11 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   if (eroded_) let_go(world, b, i, x, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
+  for (Slot& slot : slots)
+    if (slot.face >= 0 && jumps(world, clock, i, slot)) {
+      slot.slack = -slot.gap - std::max((*depth_)[i], Real(0));
+      ++b.jumped;
+    }
   find_touches(world, clock, b, i, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0) push(world, clock, b, i, slot);
@@ -144,6 +149,16 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
     if (slot.face >= 0) depth = std::max(depth, -slot.gap - slot.slack);
   }
   (*depth_)[i] = depth;
+}
+
+// Whether a touch that went on to another face, or round an edge, is much deeper there than node and face
+// have moved, as where surfaces fold. What is beyond that gives no force, as of nodes that start behind
+// faces.
+bool NodeContact::jumps(const World& world, const Clock& clock, Index i, const Slot& slot) const {
+  const Vec moved =
+      (world.nodes.v.vec(node(i).node) - velocity_of_face(world, face(slot.face), slot.at.N)) * clock.dt_old;
+  const Real tolerated = arrival_tolerance * face(slot.face).depth;
+  return -slot.gap - slot.slack > std::max((*depth_)[i], Real(0)) + 2 * moved.norm() + tolerated;
 }
 
 // Of what is deleted: its springs lose what they hold.

@@ -210,3 +210,45 @@ TEST(NodeContactTouch, ForcesBesideAnEdgeAreTheSlopesOfItsEnergy) {
   }
   EXPECT_GT(faded, 3);
 }
+
+// Two thick shells that share a corner and fold over each other, as in a crushed rail: the node is in front
+// of one, by nearly its thickness, and 8.5 behind the other, to which the touch goes on. It brings no energy;
+// the spring acts on what comes from there on.
+TEST(NodeContactTouch, GoesOnToAFaceThatFoldsOverWithoutEnergy) {
+  TouchScene scene;
+  scene.v = Vec::Zero();
+  const std::array<Vec, 3> folded{Vec(747.5870, 1352.4696, 270.0288), Vec(754.6511, 1317.7870, 259.9147),
+                                  Vec(711.1067, 1342.8418, 252.8689)};
+  scene.change = [&](ContactSides& sides) {
+    const std::array<Vec, 5> flat{Vec(752.6287, 1323.1897, 291.4188), Vec(737.9103, 1323.5800, 252.9814),
+                                  Vec(744.8561, 1344.8067, 257.1064), Vec(722.6765, 1342.8824, 255.8249),
+                                  Vec(746.8914, 1325.7344, 263.6393)};
+    for (std::size_t n = 0; n < 5; ++n) scene.world.nodes.x.set(static_cast<Index>(n), flat[n]);
+    for (std::size_t n = 0; n < 3; ++n)
+      scene.world.nodes.x.set(static_cast<Index>(5 + n), folded[n] - Vec(0, 0, 100));
+    const ContactFace shell{.node = {0, 1, 2, 3},
+                            .two_sided = true,
+                            .r = 2.5,
+                            .k = 100,
+                            .area = 500,
+                            .depth = 5,
+                            .through = 20,
+                            .passes = 1};
+    sides.faces = {shell, shell};
+    sides.faces[1].node = {2, 5, 6, 7};
+    sides.own.clear();
+    sides.nodes[0].last = 0, sides.nodes[0].r = 2.5;
+  };
+  scene.build();
+  scene.step(0);
+  EXPECT_TRUE(scene.contact->touches_something());
+  for (std::size_t n = 0; n < 3; ++n) scene.world.nodes.x.set(static_cast<Index>(5 + n), folded[n]);
+  for (int k = 0; k < 3; ++k) {
+    scene.step(1e-5);
+    EXPECT_NEAR(scene.force_on(4).norm(), 0, 1e-9);
+  }
+  EXPECT_EQ(scene.world.counters["contact_depth_jumps"], 1);
+  scene.world.nodes.v.set(4, Vec(-0.3516, -0.2888, 0.8905));
+  scene.step(0.01);
+  EXPECT_NEAR(scene.force_on(4).norm(), 10 * 0.01, 1e-3);
+}
