@@ -24,7 +24,6 @@ struct PartRange {
   Extreme density_low;   ///< lowest rho/rho0 [-]
   Extreme density_high;  ///< highest rho/rho0 [-]
 };
-using Ranges =
-    std::vector<PartRange>;  ///< by part index of the model; `seen` is false for parts without particles
+using Ranges = std::vector<PartRange>;  ///< by part index of the model; `seen` is false without particles
 
 }  // namespace courant
