@@ -6,8 +6,8 @@
 
 namespace courant {
 
-/// Writes to standard output. Where nobody reads any more (a pipe whose reader has ended) the text is lost,
-/// and nothing else.
+/// Writes to standard output. Without a reader (a pipe whose reader has ended) the text is lost, and nothing
+/// else.
 void print_text(std::string_view text);
 /// Prints a line; on a terminal it replaces the status line.
 void print_line(const std::string& line);
@@ -25,7 +25,7 @@ class ProgressTimes {
 };
 /// Shows a status line now and then as a line of its own.
 std::function<void(const std::string&)> progress_lines();
-/// Whether somebody may type.
+/// Whether the terminal accepts input.
 bool keyboard_is_terminal();
 /// Takes the status line away.
 void clear_status_line();

@@ -41,7 +41,7 @@ class Neighbours {
   /// move d in a step. `weight`: what rebuilding costs against looking at entries, by measurement.
   void adapt_skin(Real least, Real most, Real weight);
 
-  /// Smoothing lengths never change, so nobody need look whether they have grown.
+  /// Smoothing lengths never change, so their growth need not be checked.
   void keep_h() { h_changes_ = false; }
 
   /// From now on the lists also hold these ghosts, as entities behind those added before.

@@ -28,7 +28,7 @@ struct Restart {
 /// and which other file could be used.
 Restart open_restart(const std::filesystem::path& file_or_folder);
 
-/// The first entries of a restart file: who wrote it, when, and of which deck.
+/// The first entries of a restart file: its program, time and deck.
 void keep_head(Restart& head, Archive& archive);
 /// Of this program, at the present state of `simulation`.
 Restart head_of(Simulation& simulation);

@@ -20,7 +20,7 @@ struct ContactFace {
   Real k = 0;              ///< K A^2/V of a solid, K A/(longest diagonal) of a shell [M/T2]
   Real area = 0;           ///< at the start [L2]
   Real depth = 0;          ///< of the element behind it, where nodes that touch nothing are looked for [L]
-  Real through = 0;        ///< who touched it and is further behind it has gone through [L]
+  Real through = 0;        ///< depth beyond which a node in contact has leaked [L]
   unsigned passes = 0;     ///< bit p: nodes of pass p touch it
   bool has(Index n) const { return node[0] == n || node[1] == n || node[2] == n || node[3] == n; }
   int shared(const ContactFace& other) const {  ///< corners that both have

@@ -47,7 +47,7 @@ class PairGeometry {
   }
   bool kept() const { return kept_; }
 
-  /// At the start of rates and forces: `numbers` for each partner. `threads`: who will work on which blocks.
+  /// At the start of rates and forces: `numbers` for each partner. `threads`: the blocks of each thread.
   void make_room_for_shares(Index numbers, const Shares& threads) {
     if (!once_) return;
     const Tasks& tasks = neighbours_->tasks();
