@@ -14,7 +14,7 @@ void print_line(const std::string& line);
 /// Shows a status line; empty where standard output is no terminal.
 std::function<void(const std::string&)> status_line();
 /// When a line about progress is due where lines stay, as in a file: after 5 s, then after 10, 20, 40 and
-/// every 60 s, so that short runs say nothing and a day's some thousand lines.
+/// every 60 s, so that short runs print nothing and a day's run some thousand lines.
 class ProgressTimes {
  public:
   /// Whether one is due so many seconds after the start; the next is then later.

@@ -17,7 +17,7 @@
 namespace courant {
 
 /// When points of the elements of a part fail, and how many of them take the element away. Infinity: a
-/// criterion is not asked for. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
+/// criterion is not requested. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
 struct FailureRules {
   static constexpr Real never = std::numeric_limits<Real>::infinity();
   /// Of the law (FS, FAIL, damage): a point has no stress from there on, an element goes when all points have
@@ -170,7 +170,7 @@ class Erosion {
   std::vector<std::array<Real, 3>> kept_;   ///< energies before the step, by element
 };
 
-/// What elements of all kinds are asked for besides.
+/// Further values of elements of all kinds.
 struct ElementOptions {
   MassScaling scaling;
   std::vector<FailureRules> failure;                ///< by part of the model

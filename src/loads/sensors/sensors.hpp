@@ -13,7 +13,7 @@
 
 namespace courant {
 
-/// What a switch looks at.
+/// The quantity of a switch.
 struct Sensor {
   Id id = 0;
   std::function<Real(const World&, const Clock&)> value;

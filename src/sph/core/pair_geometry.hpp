@@ -58,7 +58,7 @@ class PairGeometry {
     shares_.grow_to(std::size_t(tasks.total()) * numbers);
   }
 
-  /// Blocks of a task are asked for in order, by one thread.
+  /// Blocks of a task are requested in order, by one thread.
   PairLists lists(Index begin, Index end) {
     const Index b = begin / block_size;
     PairLists out{.list = neighbours_->list(b),
