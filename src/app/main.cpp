@@ -33,7 +33,7 @@ void tell_of_memory() {
   if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
-/// Where an exception leaves a loop over threads, nobody can catch it.
+/// An exception that leaves a loop over threads cannot be caught.
 [[noreturn]] void end() {
   try {
     if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);

@@ -5,9 +5,9 @@
 
 namespace courant {
 
-/// Becomes `python3 -m courant WORDS`; returns only where that fails, with the message. The package
-/// is looked for beside the executable (`python`, `../share/courant/python`), the interpreter is
-/// COURANT_PYTHON or `python3`.
+/// Becomes `python3 -m courant WORDS`; returns only where that fails, with the message. The package is
+/// searched beside the executable (`python`, `../share/courant/python`), the interpreter is COURANT_PYTHON or
+/// `python3`.
 std::string become_python_program(const std::vector<std::string>& words);
 
 }  // namespace courant

@@ -14,7 +14,7 @@ enum ExitCode { exit_ok = 0, exit_input = 1, exit_run = 2, exit_other = 3 };
 struct RunCall {
   std::string deck;
   ReadOptions read;
-  std::string restart;  ///< file or folder of results to go on from; empty: from the start
+  std::string restart;  ///< file or folder of results to continue from; empty: from the start
   int threads = 0;      ///< 0: as many as are quickest
   RunOptions options;   ///< `warnings`, `restart`, `relaxing` and `choose_threads` are filled in
   /// Gets the messages about the deck before the run begins.
@@ -24,8 +24,8 @@ struct RunCall {
 
 struct RunResult {
   int exit_code = exit_other;
-  std::string error;  ///< why there is no run, or how it ended; lines with their ends, empty: nothing to say
-  Summary summary;    ///< of a run that took place
+  std::string error;  ///< reason for no run, or for its end; lines with their ends, empty: none
+  Summary summary;    ///< of a run that was started
 };
 
 /// Reads, builds and runs a deck. Never prints, never ends the program; a later run in the same process has

@@ -27,7 +27,7 @@ class CompiledExpression {
   bool ok() const { return error_.empty(); }
   const std::string& error() const { return error_; }  ///< "nothing to evaluate" if there was no text
   const std::string& hint() const { return hint_; }
-  std::size_t at() const { return at_; }                    ///< place of the fault in the text, from 0
+  std::size_t at() const { return at_; }                    ///< position of the fault in the text, from 0
   std::size_t operations() const { return steps_.size(); }  ///< of one evaluation
   bool uses(std::size_t name) const { return name < used_.size() && used_[name]; }
 

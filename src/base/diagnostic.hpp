@@ -11,7 +11,7 @@ struct Location {
   int line = 0;
   int column = 0;
   std::string
-      included_from{};  ///< "main.k:12, from top.k:3": who includes the file; empty: it is the deck itself
+      included_from{};  ///< "main.k:12, from top.k:3": the including file; empty: it is the deck itself
 };
 
 enum class Severity { note, warning, error };
@@ -50,7 +50,7 @@ class Diagnostics {
   bool ok() const { return errors() == 0; }
   /// Whether there are errors that are not contained.
   bool broken() const { return errors_ > contained_; }
-  /// Contained errors do not count until they are taken back: who builds the model goes on in spite of them.
+  /// Contained errors do not count until this is revoked: the model is built in spite of them.
   void set_aside(bool aside) { aside_ = aside; }
   std::string text() const;  ///< all messages, one or two lines each, in the order they were found
 

@@ -52,7 +52,7 @@ enum class Arithmetic {
 struct ExpressionResult {
   Number value;
   std::string error, hint;
-  std::size_t at = 0;  ///< place of the error in the text, from 0
+  std::size_t at = 0;  ///< position of the error in the text, from 0
   bool ok() const { return error.empty(); }
 };
 

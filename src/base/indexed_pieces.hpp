@@ -17,7 +17,7 @@ class IndexedPieces {
   /// What the function does beyond its points.
   enum class Beyond { straight, constant };
   IndexedPieces() = default;
-  /// As many x, strictly increasing, as y. Of one point a constant; of none nothing that can be asked.
+  /// As many x, strictly increasing, as y. Of one point a constant; without points it cannot be evaluated.
   IndexedPieces(const std::vector<Real>& x, const std::vector<Real>& y, Beyond beyond = Beyond::straight) {
     if (x.empty()) return;
     const bool flat = beyond == Beyond::constant || x.size() == 1;

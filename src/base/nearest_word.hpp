@@ -1,5 +1,5 @@
 #pragma once
-// Which known word somebody may have meant.
+// The known word nearest to a mistyped one.
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -7,7 +7,7 @@ namespace courant {
 
 /// What kind of fault stops a run. Advice depends on the state of the scene but for the first.
 enum class StopCause {
-  other,       ///< the text says it all
+  other,       ///< the text is complete
   not_finite,  ///< NaN or infinity in the state
   density,     ///< rho <= 0
   leap,        ///< a particle moved too far in one step
@@ -16,7 +16,7 @@ enum class StopCause {
   energy,      ///< more than came in, or beyond ENDENG
 };
 
-/// The run cannot go on: negative density, NaN, a step below DTMIN. The text names time, particle, part or
+/// The run cannot continue: negative density, NaN, a step below DTMIN. The text names time, particle, part or
 /// term.
 struct RunError : std::runtime_error {
   explicit RunError(const std::string& text, StopCause why = StopCause::other,

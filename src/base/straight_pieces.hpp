@@ -1,5 +1,5 @@
 #pragma once
-// Functions that are straight between points, and go on beyond them as in the outermost piece, as
+// Functions that are straight between points, and continue beyond them as in the outermost piece, as
 // constitutive curves do in LS-DYNA.
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@ namespace courant {
 class Deck;
 class Diagnostics;
 
-/// *CONTACT_AUTOMATIC_NODES_TO_SURFACE and its kin; field names and units as in the keywords' table.
+/// *CONTACT_AUTOMATIC_NODES_TO_SURFACE and similar keywords; field names and units as in the keywords' table.
 struct ContactCard : Entry {
   Id cid = 0;
   std::string title;
@@ -29,36 +29,36 @@ struct ContactCard : Entry {
   int pstiff = 0, ignroff = 0, binr = 0, ssftyp = 0, swtpr = 0;
   Real fstol = 2, tetfac = 0, shloff = 0;
   int erode_isym = 0, erosop = 0, iadj = 0;  ///< of eroding contacts
-  int option = 0, tblcid = 0, thkoff = 0;    ///< of contacts that hold until they break
+  int option = 0, tblcid = 0, thkoff = 0;    ///< of tiebreak contacts
   Real kpf = 0;
   Real nfls = 0, sfls = 0, param = 0, eraten = 0, erates = 0, ct2cn = 0, cn = 0, nen = 2, mes = 2;
 };
 
-/// Nodes that are held at faces until a stress, or a force, breaks that.
+/// Nodes tied to faces until a stress, or a force, breaks the tie.
 enum class Tiebreak {
   none,
-  by_option,  ///< stress; OPTION tells how
+  by_option,  ///< stress, by OPTION
   stress,
   force,
 };
 
-/// What the name of a *CONTACT says.
+/// Properties given by the name of a *CONTACT.
 struct ContactKind {
   bool automatic = true;     ///< faces of shells act on both sides, with their thickness
   bool single = false;       ///< one surface with itself
-  bool symmetric = false;    ///< nodes of SURFB on faces of SURFA, too
+  bool symmetric = false;    ///< also nodes of SURFB on faces of SURFA
   bool nodes = false;        ///< SURFA gives nodes, which may be particles
-  bool edges = false;        ///< edges on edges, and beams, too
+  bool edges = false;        ///< also edges on edges, and beams
   bool inner = false;        ///< all edges of shells, not only free ones
-  bool eroding = false;      ///< faces that deletion of solids lays bare, too
+  bool eroding = false;      ///< also faces exposed by deleted solids
   bool forming = false;      ///< rigid tools without thickness, blanks with theirs
-  const char* runs_as = "";  ///< where this is another method than the name asks for
+  const char* runs_as = "";  ///< the method used, if it differs from that of the name
   Tiebreak tiebreak = Tiebreak::none;
 };
 ContactKind kind_of(const ContactCard& card);
 /// Whether edges touch edges: by the name, or SOFT 2 with such a DEPTH.
 bool asks_for_edges(const ContactCard& card);
-/// FS 0 with FD > 0 rubs nothing at rest.
+/// FS 0 with FD > 0 has no static friction.
 void warn_of_sliding(const Deck& deck, const ContactCard& card, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -31,13 +31,13 @@ struct ContactOptions {
       true;  ///< ICONT 1. Particles outside the box move with constant velocity in either case
   bool thickness_from_volume =
       false;  ///< ITHK 1: contact radius of a particle is 0.5 V^(1/dim) where SAST is 0
-  /// Bulk modulus of the law of strength of a part; 0: none, or one that leaves pressure to an equation of
-  /// state. [M/LT2]
+  /// Bulk modulus of the law of strength of a part; 0: none, or a law whose pressure is that of an equation
+  /// of state. [M/LT2]
   std::function<Real(Index part)> bulk_modulus = [](Index) { return Real(0); };
-  WallBodies bodies{};    ///< whose faces it touches
+  WallBodies bodies{};    ///< of the faces of the contact
   Real reach_margin = 0;  ///< particles and nodes move at most half of this between two refreshes [L]
-  Real tssfac = 0.9;      ///< what elements leave of their own step
-  bool shortcuts = true;  ///< off: every candidate is looked at in every step, with the same result
+  Real tssfac = 0.9;      ///< fraction of their own step that elements use
+  bool shortcuts = true;  ///< off: every candidate is examined in every step, with the same result
 };
 
 /// One contact interface as the deck gives it; names and units as on the card and in *CONTROL_CONTACT.
@@ -51,17 +51,18 @@ struct ContactLaw : FrictionLaw {
   SensorGate gate{};
   Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
   int soft = 0, penopt = 1;
-  bool literal = false;  ///< the penalty alone acts, whoever goes through
+  bool literal = false;  ///< only the penalty acts, even if particles leak
 };
 
-/// The interface at work. A particle with distance d < r to the walls is pushed by k (r - d) along the
-/// shortest path out; where several walls meet, to the nearest position that keeps distance r from all (see
-/// push_out.hpp). Each particle has a last admissible position: its own place, unless its path went through a
-/// mid-surface. It is then pulled back to the side of that position, which leaves it around a free edge only,
-/// never through a wall. What outlives a search of neighbours is in particle fields, so sorting keeps it.
+/// A contact interface. A particle at distance d < r from the walls gets the force k (r - d) along the
+/// shortest path out; where several walls meet, towards the nearest position at distance r from all (see
+/// push_out.hpp). Each particle has a last admissible position: its own position, unless its path crossed a
+/// mid-surface. It is then forced back to the side of that position, which moves around free edges only,
+/// never through a wall. Data that survive a neighbour search are in particle fields, so sorting preserves
+/// them.
 ///
-/// Most particles near walls are far from touching, or touch one fixed flat wall or a corner of few. For
-/// these there are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).
+/// Most particles near walls do not touch, or touch one fixed flat wall or a corner of few. For these there
+/// are shortcuts (quick_touch.cpp) that give the same bits as the full search (touch.cpp).
 class Contact : public Force,
                 public Refresh,
                 public TimeLimit,
@@ -75,19 +76,19 @@ class Contact : public Force,
           const std::vector<bool>& tracked, World& world);
 
   std::string name() const override;
-  /// Adds what touches do besides.
+  /// Adds a law of the interface.
   void add_law(std::shared_ptr<InterfaceLaw> law) { laws_.push_back(std::move(law)), drag_on_ = true; }
   void declare(const World& world, Accesses& a) const override;
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
   void finish(World& world, const Clock& clock) override;
   /// Adds the forces on fixed walls to nodes.f and segments.contact_force-> No motion depends on these, so
-  /// this is left to who wants to see them; before particles move again.
+  /// they are computed on request, before particles move again.
   void show_forces(World& world);
-  /// What touches leave for the faces and nodes of walls that move; complete after `finish`.
+  /// Reactions on the faces and nodes of moving walls; complete after `finish`.
   const Resource& reactions() const { return reactions_resource_; }
-  /// Adds the force that a node, or a segment, got from touches on walls that move, in the order of facets
-  /// and particles.
+  /// Adds the force of touches on a node, or a segment, of moving walls, in the order of facets and
+  /// particles.
   void add_reaction_on_node(Index node, Vec& force) const;
   void add_reaction_on_segment(Index segment, Vec& force) const;
   bool has_moving_walls() const { return !moving_.empty(); }
@@ -98,12 +99,12 @@ class Contact : public Force,
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
   InterfaceForce report() const;
-  /// Whether it has pushed anything so far.
+  /// Whether it has exerted a force so far.
   bool has_acted() const { return acted_; }
   void report_point_forces(const World& world, const std::function<void(const PointForce&)>& take) override;
 
-  /// What a restart needs besides the particle fields: energies dissipated so far, the step that SOFT 1 uses,
-  /// and what is known of particles near walls since neighbours were searched last.
+  /// State for a restart besides the particle fields: energies dissipated so far, the step that SOFT 1 uses,
+  /// and data of particles near walls since the last neighbour search.
   void keep(Archive& archive) override;
   void loaded(World& world) override { listed_ = world.particles.active; }
 
@@ -121,10 +122,10 @@ class Contact : public Force,
     Index particle, facet;
     Real share, depth, k;
     Vec n, q;
-    Real held = 0;  ///< what the wall adds along n to the penalty (hold.cpp) [ML/T2]
+    Real held = 0;  ///< force of the wall along n beyond the penalty (hold.cpp) [ML/T2]
   };
-  struct Drag {        ///< what friction and damping add to a touch
-    Real damping = 0;  ///< part of the normal force that is damping [ML/T2]
+  struct Drag {        ///< forces of friction and damping in a touch
+    Real damping = 0;  ///< damping part of the normal force [ML/T2]
     Vec friction;      ///< force on the particle [ML/T2]
     Vec other;         ///< of interface laws [ML/T2]
   };
@@ -133,14 +134,14 @@ class Contact : public Force,
     Index first = 0, last = 0;  ///< its candidates: [first, last)
     std::int8_t walls = 0;      ///< planes of all its candidates; 0: too many or not known
     std::array<std::int8_t, 3> side{};
-    std::array<Index, 3> facet{};  ///< of each plane the one it was over last, in ascending order
-    bool behind = false;           ///< its admissible position is somewhere else
+    std::array<Index, 3> facet{};  ///< the last facet below it in each plane, in ascending order
+    bool behind = false;           ///< its admissible position is not its own
     bool skipped = false;          ///< sides of candidates are out of date
-    std::int8_t joints = 0;        ///< facets of a joint it was over at `seen`, if any
+    std::int8_t joints = 0;        ///< facets of a joint below it at `seen`, if any
     std::array<Index, 4> joint{};
     Real k = 0;       ///< stiffness of the particle [M/T2]
-    Real room = 0;    ///< at `seen` it was further than this from touching [L]
-    Real travel = 0;  ///< of the walls, then [L]
+    Real room = 0;    ///< lower bound of the distance to a touch at `seen` [L]
+    Real travel = 0;  ///< of the walls at `seen` [L]
     Vec seen = Vec::Zero();
   };
   struct Reaction {  ///< of a touch on a wall that moves
@@ -149,14 +150,14 @@ class Contact : public Force,
     std::array<Real, 4> share{};  ///< of its corners [-]
     Real k = 0;                   ///< [M/T2]
   };
-  /// Those of all blocks, from which faces and nodes gather: facet moving_[k] has
-  /// all[order[first[k]]], ..., all[order[first[k + 1] - 1]], in the order of particles.
+  /// Reactions of all blocks, from which faces and nodes gather: facet moving_[k] has all[order[first[k]]],
+  /// ..., all[order[first[k + 1] - 1]], in the order of particles.
   struct Reactions {
     std::vector<Index> begin;  ///< of each block's, and the end
     std::vector<Reaction> all;
     std::vector<Index> key, first, order;
   };
-  /// Which facets that move a node or a segment has.
+  /// The moving facets of a node or a segment.
   struct Incidence {
     struct Corner {
       Index moving;  ///< in moving_
@@ -165,20 +166,20 @@ class Contact : public Force,
     std::vector<Index> first;
     std::vector<Corner> corners;
   };
-  struct alignas(64) Block {  ///< of particles; what one thread works on
+  struct alignas(64) Block {  ///< of particles, for one thread
     std::vector<Slot> slots;
     std::vector<Index> candidate;   ///< facets, ascending for each slot
     std::vector<std::int8_t> side;  ///< of the admissible position, per candidate
     std::vector<Touch> touches;     ///< now, in the order of particles
     std::vector<Drag> drags;        ///< per touch, if there is friction or damping
     std::vector<Index> crossed;     ///< particles whose path goes through a mid-surface now
-    std::vector<Index> leapt;       ///< those whose last step did, too far for the wall to hold them
-    Real deepest = 0;               ///< touch [L]
+    std::vector<Index> leapt;  ///< those whose path did in the last step, too far for the wall to hold them
+    Real deepest = 0;          ///< touch [L]
     std::vector<Reaction> reactions;
     Real damping_work = 0, friction_work = 0;   ///< dissipated in this step [ML2/T2]
-    Real approach_dt = 0;                       ///< longest step before a particle is seen again [T]
+    Real approach_dt = 0;                       ///< longest step until a particle is examined again [T]
     Index approaching = -1;                     ///< that particle
-    std::vector<std::pair<Index, Real>> freed;  ///< particles at deleted walls, and what their springs held
+    std::vector<std::pair<Index, Real>> freed;  ///< particles at deleted walls, with their spring energy
     void clear_touches() {
       touches.clear(), drags.clear(), crossed.clear(), reactions.clear();
       deepest = 0, approaching = -1, approach_dt = std::numeric_limits<Real>::infinity();
@@ -225,7 +226,7 @@ class Contact : public Force,
   void look_further(const World& world);
   void note_approach(const World& world, Block& b, const Slot& slot, Real dt) const;
   Vec in_plane(Vec v) const;
-  struct Supports;  ///< what supports and curves leave free, of particles and nodes
+  struct Supports;  ///< free axes of particles and nodes besides supports and curves
   bool balance(World& world, const Clock& clock, const Supports& supports);
   Real correct(World& world, const Clock& clock, const Supports& supports, Touch& touch) const;
   bool join_struck(const World& world, const Clock& clock, Block& b) const;
@@ -268,17 +269,17 @@ class Contact : public Force,
   Real r_most_ = 0;  ///< largest contact distance [L]
   Real limit_ = 0;
   Real soft_dt_ = 0;          ///< longest step so far [T]
-  bool hold_ = true;          ///< particles that the penalty does not
+  bool hold_ = true;          ///< whether walls hold particles that the penalty does not
   Real r_least_ = 0;          ///< smallest contact distance [L]
   Real wall_speed_ = 0;       ///< largest, of the corners [L/T]
-  Index held_now_ = 0;        ///< touches that are held in this step
+  Index held_now_ = 0;        ///< held touches in this step
   bool search_less_ = false;  ///< options_.shortcuts, unless round-off forbids them
 
   Field<Real>* k_particle_ = nullptr;  ///< penalty stiffness of the particle; 0: not tracked
   Field<Real>* radius_ = nullptr;      ///< only if it differs from particle to particle
   Field<Real>* admissible_ = nullptr;  ///< admissible position minus x, 0 for a particle in front
   Field<Index>* near_wall_ =
-      nullptr;  ///< 1 where a wall is within reach, if anybody wants to know; whoever does clears it
+      nullptr;  ///< 1 where a wall is within reach, if a pass needs it; that pass clears it
   Field<Index>* leaked_ =
       nullptr;  ///< 1 once the particle's path crossed a mid-surface (shared by all interfaces)
   std::array<Field<Real>*, 3> friction_normal_{}, friction_force_{};
@@ -292,14 +293,14 @@ class Contact : public Force,
   bool shown_ = false;
   bool acted_ = false;
   Real damping_work_ = 0, friction_work_ = 0;
-  bool deforms_ = false;           ///< some wall does
+  bool deforms_ = false;           ///< some wall deforms
   Real stiffest_ = 0;              ///< bound of the largest frequency of a node that deforms, squared [1/T2]
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails
   std::int64_t eroded_count_ = 0;  ///< deleted elements when walls were listed
-  Real let_go_ = 0;                ///< what springs held that ended with their wall, not yet in the ledger
+  Real let_go_ = 0;                ///< energy of springs that ended with their wall, not yet in the ledger
 };
 
-/// Adds an interface to the passes of `world`, with those that gather its reactions where walls move.
+/// Adds an interface to the passes of `world`, with the passes that gather its reactions where walls move.
 void add_contact(World& world, const std::shared_ptr<Contact>& contact);
 
 /// Reads all *CONTACT_AUTOMATIC_NODES_TO_SURFACE of the deck. Particles and segments must exist (x, v, m,

@@ -3,8 +3,8 @@
 
 namespace courant {
 
-/// Gives every contact of the deck an id of its own: without one it has its position among them, with that of
-/// an earlier one, and a warning, the next that is free.
+/// Gives every contact of the deck a unique id: without an id that is its position among the contacts; with
+/// the id of an earlier one it is the next free one, with a warning.
 void number_contacts(Deck& deck, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -1,5 +1,5 @@
 #pragma once
-// Cards that all *CONTACT of two sides share.
+// Cards common to all *CONTACT of two sides.
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace courant {
 
-/// What SURFA and SURFB number, by the type beside them.
+/// Id space of SURFA and SURFB, by the type beside them.
 inline IdSpace space_of_side(int type) {
   constexpr IdSpace spaces[] = {IdSpace::segment_set, IdSpace::shell_set, IdSpace::part_set, IdSpace::part,
                                 IdSpace::node_set,    IdSpace::none,      IdSpace::part_set};
@@ -87,7 +87,7 @@ std::vector<CardOf<T>> contact_first_cards() {
            {"VSF", &T::vsf, "-", "scale of VC", {.standard = 1, .check = Check::not_negative}}}}};
 }
 
-/// What all keywords of contacts have alike.
+/// Common part of all keywords of contacts.
 template <class T>
 KeywordOf<T> contact_head(std::vector<std::string> names, std::string purpose, std::vector<CardOf<T>> cards) {
   return {.names = std::move(names),

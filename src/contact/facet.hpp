@@ -31,21 +31,21 @@ struct Facet {
   Index body = -1;              ///< rigid body it belongs to; -1: none
 };
 
-/// How many nodes move the facet.
+/// Number of nodes that move the facet.
 inline int node_count(const Facet& f) {
   return f.centred ? 4 : f.corners;
 }
-/// What a corner has of a vector that nodes have.
+/// Value at a corner of a vector given at nodes.
 template <class OfNode>
 Vec at_corner(const Facet& f, int corner, const OfNode& of_node) {
   if (!f.centred || corner < 2) return of_node(f.node[std::min(corner, f.corners - 1)]);
   return 0.25 * (of_node(f.node[0]) + of_node(f.node[1]) + of_node(f.node[2]) + of_node(f.node[3]));
 }
 
-/// Facets of the given segments with their present shape. Flat convex quads stay whole, others become two
-/// triangles; those of which `deforms` holds for a node become four around their middle, with forces on nodes
-/// that are those of the positions of the facets, however the quad warps. Only geometry, node, segment and
-/// moves are filled.
+/// Facets of the given segments with their present shape. Flat convex quads remain one facet, others become
+/// two triangles. Those with a node for which `deforms` holds become four around their middle; forces on
+/// nodes then correspond to the positions of the facets at any warp. Only geometry, node, segment and moves
+/// are filled.
 std::vector<Facet> make_facets(
     const World& world, const std::vector<Index>& segments,
     const std::function<bool(Index node)>& deforms = [](Index) { return false; });
@@ -62,7 +62,7 @@ inline int side_of(Real plane_distance) {
   return plane_distance < 0 ? -1 : 1;
 }
 
-/// True if y's projection on the plane falls on the facet (its rim included).
+/// True if y's projection on the plane falls on the facet (its edges included).
 inline bool is_over(const Facet& f, const Vec& y) {
   for (int e = 0; e < f.corners; ++e)
     if (f.inward[e].dot(y - f.x[e]) < -f.tolerance) return false;
@@ -73,12 +73,12 @@ inline bool is_over(const Facet& f, const Vec& y) {
 Vec nearest_on_rim(const Facet& f, const Vec& y);
 
 /// True if the point that goes from `from` to `to` while the corners go from `before` to f.x passes through
-/// the facet. `side` is the side of `from`; it decides where `from` is in the plane but for rounding.
-/// `fraction` (0 to 1) states when.
+/// the facet. `side` is the side of `from`; it counts where `from` is in the plane except for rounding.
+/// `fraction` (0 to 1) is the time in the step.
 bool passes_through(const Facet& f, const Corners& before, int side, const Vec& from, const Vec& to,
                     Real& fraction);
 
-/// Shares that the facet's nodes have in a point of its plane (linear or bilinear); they sum to 1. shape: its
+/// Weights of the facet's nodes at a point of its plane (linear or bilinear); their sum is 1. shape: its
 /// nodes [-]
 std::array<Real, 4> shape_functions(const Facet& f, const Vec& q);
 

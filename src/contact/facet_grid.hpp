@@ -1,5 +1,5 @@
 #pragma once
-// Which facets are near a point: each facet is in all cells that it reaches, so one cell answers.
+// Search for facets near a point: each facet is in all cells that it reaches, so one cell suffices.
 #include <span>
 #include <vector>
 

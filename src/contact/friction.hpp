@@ -29,7 +29,7 @@ struct Friction {
 /// Of pairs of parts, the lower index first.
 using FrictionTable = std::map<std::pair<Index, Index>, Friction>;
 
-/// Of one contact; with a table its own numbers are those of all pairs that are not there.
+/// Of one contact; with a table its own numbers are those of all pairs that are not in it.
 struct FrictionLaw : Friction {
   std::shared_ptr<const FrictionTable> table{};  ///< null: none
   const Friction& between(Index a, Index b) const {
@@ -53,7 +53,7 @@ struct FrictionLaw : Friction {
 };
 
 /// FS to VC with FSF and VSF, or with FS -2 those of *DEFINE_FRICTION. Refuses by name: other FS below 0,
-/// tables and parts that are not there.
+/// tables and parts that do not exist.
 FrictionLaw friction_of_card(const Deck& deck, const Model& model, const ContactCard& card,
                              Diagnostics& diagnostics);
 

@@ -62,7 +62,7 @@ void Contact::look_further(const World& world) {
   grid_.build(facets_, reach_);
 }
 
-// Between two looks at it, nobody gets further than half the contact distance towards a wall.
+// Between two checks of it, no particle moves further than half the contact distance towards a wall.
 void Contact::note_approach(const World& world, Block& b, const Slot& slot, Real dt) const {
   const Index i = slot.particle;
   const Vec x = world.particles.x.vec(i), v = world.particles.v.vec(i);
@@ -203,7 +203,7 @@ Real Contact::correct(World& world, const Clock& clock, const Supports& supports
   Real too_fast = -room / dt - v;
   if (f.body >= 0 && is_over(f, p.x.vec(i))) {
     const Real side = f.n.dot(a.n) < 0 ? -1 : 1;
-    const Real least = std::min(closest * r, r - a.depth);  // who is deeper is not thrown out
+    const Real least = std::min(closest * r, r - a.depth);  // deeper particles are not ejected
     too_fast = std::max(too_fast, (least - gap_at_end(world, clock, i, f, side)) / dt);
   }
   if (!(too_fast > 0) && a.held == 0) return 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Laws of an interface besides the penalty: what a touch does in addition to being pushed off.
+// Laws of an interface: forces of a touch in addition to the penalty.
 #include <functional>
 #include <memory>
 #include <vector>
@@ -35,7 +35,7 @@ struct AskedInterfaceLaw {
   Entry card{};  ///< for messages
 };
 
-/// Laws that a deck asks for. One for a contact that is not there is refused.
+/// Laws requested by a deck. A law for a contact that does not exist is refused.
 using InterfaceLawsOf = std::function<std::vector<AskedInterfaceLaw>(const Deck&)>;
 std::vector<InterfaceLawsOf>& interface_law_registry();
 

@@ -12,7 +12,7 @@ inline constexpr Real depth_tolerance = 1e-9;
 /// Shortcuts rely on comparisons with this margin, of the contact distance; round-off is far below.
 inline constexpr Real clear_margin = 1e-6;
 
-/// What the search for one particle's pushes works with.
+/// Data of the search for the pushes of one particle.
 struct Contact::Near {
   Index particle = 0;
   std::span<const Index> candidate;  ///< facets

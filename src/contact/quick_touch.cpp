@@ -35,7 +35,7 @@ void Contact::block(World& world, const Clock& clock, Index begin, Index) {
   b.clear_touches();
   const Real dt = soft_dt_ > 0 ? soft_dt_ : limit_;
   const Real calm =
-      0.5 * r_least_ / dt - wall_speed_;  // nobody slower comes that far; all may where it is < 0
+      0.5 * r_least_ / dt - wall_speed_;  // slower particles do not come that far; all may where it is < 0
   const Real calm2 = !hold_ ? infinite : calm > 0 ? calm * calm : -1;
   const auto& x = world.particles.x;
   const Real* const at[3] = {x.data(0), x.data(1), x.data(2)};

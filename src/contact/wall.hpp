@@ -1,5 +1,5 @@
 #pragma once
-// What the search needs of a facet, close together in memory, and which facets lie in one plane.
+// Data of a facet for the search, compact in memory, and the facets that are in one plane.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -29,8 +29,8 @@ inline Real plane_distance(const Wall& w, const Vec& y) {
   return w.n.dot(y) - w.offset;
 }
 
-/// How far y's projection on the plane is beyond the facet's edges at least; negative: how far inside. Exact
-/// but for rounding inside and straight beyond an edge, a lower bound beyond corners. [L]
+/// Least distance of y's projection on the plane beyond the facet's edges; negative: inside. Exact except for
+/// rounding inside and straight beyond an edge, a lower bound beyond corners. [L]
 inline Real beyond_edges(const Wall& w, const Vec& y) {
   Real beyond = w.edge[0] - w.inward[0].dot(y);
   for (int e = 1; e < 4; ++e) beyond = std::max(beyond, w.edge[e] - w.inward[e].dot(y));
@@ -53,8 +53,8 @@ inline bool is_surely_over(const Wall& w, const Vec& y) {
 }
 
 /// Gives Wall::plane and Wall::sure: facets of one plane are fixed, touch at the same distance and do not
-/// overlap. Within `reach` of two of them their plane distances differ, but for the sign, by less than
-/// `same`; what is surely over one is beyond the tolerance of those with lower numbers, by more than `apart`.
+/// overlap. Within `reach` of two of them their plane distances differ, except for the sign, by less than
+/// `same`; a point surely over one is beyond the tolerance of those with lower numbers, by more than `apart`.
 /// [L]
 void find_planes(const std::vector<Facet>& facets, Real reach, Real same, Real apart,
                  std::vector<Wall>& walls);

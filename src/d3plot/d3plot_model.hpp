@@ -1,6 +1,5 @@
 #pragma once
-// What a scene looks like as d3plot: its nodes, elements and parts as the deck has them, and the words of a
-// state.
+// A scene as d3plot: its nodes, elements and parts as the deck has them, and the words of a state.
 #include <array>
 #include <optional>
 #include <string>
@@ -35,7 +34,7 @@ struct D3plotExtent {
   }
 };
 
-/// An element as the deck has it. Nodes and part: places in the lists of the model, -1 none.
+/// An element as the deck has it. Nodes and part: positions in the lists of the model, -1 none.
 struct D3plotElement {
   Id id = 0;
   Index part = 0;
@@ -64,7 +63,7 @@ struct D3plotMesh {
   }
 };
 
-/// The pass of a scene whose deck asks for d3plot; it computes nothing on the way.
+/// The pass of a scene whose deck requests d3plot; it computes nothing.
 class D3plotModel : public Pass {
  public:
   D3plotModel(D3plotMesh mesh, D3plotExtent extent, bool vtk, std::size_t most)

@@ -1,5 +1,5 @@
 #pragma once
-// What elements tell of themselves for histories, on request.
+// Values that elements report for histories, on request.
 #include <array>
 #include <vector>
 
@@ -47,7 +47,7 @@ struct ElementReporter {
   /// What a cut through the element counts besides its points: of shells the thickness [L], of beams the area
   /// [L2], of solids 1.
   virtual Real cut_measure(Index e) const = 0;
-  /// Of beams: false where they pull and do nothing else.
+  /// Of beams: false for axial forces only.
   virtual bool bends() const { return true; }
 };
 

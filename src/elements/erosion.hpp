@@ -17,7 +17,7 @@
 namespace courant {
 
 /// When points of the elements of a part fail, and how many of them take the element away. Infinity: a
-/// criterion is not asked for. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
+/// criterion is not requested. Signs: stress and strain > 0 in tension, pressure > 0 in compression.
 struct FailureRules {
   static constexpr Real never = std::numeric_limits<Real>::infinity();
   /// Of the law (FS, FAIL, damage): a point has no stress from there on, an element goes when all points have
@@ -38,7 +38,7 @@ struct FailureRules {
   int law_points = 0;  ///< how many points the law must take away, of layers that differ; 0: all
   StrengthLaw::LeastStep least_step;  ///< of the law: an element with a smaller one goes
   std::map<Id, Real> deaths{};        ///< *DEFINE_ELEMENT_DEATH: by element [T]
-  bool distorted = false;             ///< shells that turn inwards; who knows their positions tells
+  bool distorted = false;             ///< shells that turn inwards; set by the pass with their positions
   bool small_step = false;  ///< ERODE: elements that would bring the step below DTMIN times the first
   bool measures_strain() const;
   bool of_points() const;  ///< any but `small_step` and volume
@@ -107,7 +107,7 @@ class Erosion {
   void declare(const World& world, Accesses& a) const;
   const FailureRules& rules() const { return rules_; }
   const ElementGroup& group() const { return group_; }
-  /// Logarithmic strain of a solid, to be turned with the stress; null: nobody asks for it.
+  /// Logarithmic strain of a solid, to be turned with the stress; null: not needed.
   Field<Real>* strain() { return strain_; }
   bool dead(Index e) const { return eroded_[e] != 0; }
   bool any_dead(Index begin) const { return dead_[static_cast<std::size_t>(begin / block_size)] > 0; }
@@ -126,7 +126,7 @@ class Erosion {
   void judge(Index begin, Index count, Real share, Real* step_limit, Real* wave_time, Real* volume,
              const CornerPush& push);
 
-  // for who deletes:
+  // for the pass that deletes:
   void declare_booking(Accesses& a) const;
   void set_least_step(Real step) { least_step_ = step; }  ///< DTMIN times the first [T]
   struct Failed {
@@ -160,7 +160,7 @@ class Erosion {
   Field<Index>& eroded_;
   Field<Index>& failed_;  ///< by point: by_law, by_card
   Field<Real>*strain_ = nullptr, *impulse_ = nullptr;
-  Field<Real>* first_step_ = nullptr;  ///< of each element; null: nobody asks for it [T]
+  Field<Real>* first_step_ = nullptr;  ///< of each element; null: not needed [T]
   std::vector<Field<Real>*> vanishing_, weakening_;
   Real least_step_ = 0;
   std::vector<Real> death_;                 ///< of each element, empty: none has one [T]
@@ -170,7 +170,7 @@ class Erosion {
   std::vector<std::array<Real, 3>> kept_;   ///< energies before the step, by element
 };
 
-/// What elements of all kinds are asked for besides.
+/// Further values of elements of all kinds.
 struct ElementOptions {
   MassScaling scaling;
   std::vector<FailureRules> failure;                ///< by part of the model

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a law goes on from a stress that it is given.
+// Whether a law continues from a given stress.
 #include <array>
 #include <cmath>
 #include <span>

@@ -15,7 +15,7 @@ using NodalVector = std::array<std::vector<Real>, 3>;
 struct GroupNodes {
   /// `held`: axes along which nodes of the world are.
   GroupNodes(const ElementGroup& group, const std::vector<std::array<bool, 3>>& held, const Nodes& nodes);
-  NodalVector x;                            ///< places [L]
+  NodalVector x;                            ///< positions [L]
   std::vector<Real> m;                      ///< shares of the group's mass [M]
   std::vector<std::array<bool, 3>> held{};  ///< of each of them
   std::vector<std::vector<Index>> corner;   ///< of elements, by corner

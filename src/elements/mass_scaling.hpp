@@ -26,8 +26,8 @@ class ScaledMass {
   /// inertia of shells for each corner, of which the nodes get more in the same ratio; null: solids. [ML2]
   ScaledMass(const MassScaling& rules, const ElementGroup& group, const Field<Real>* corner_inertia,
              World& world);
-  /// Brings elements to the step that is asked for; `wave_time`: the step that each has so far, without
-  /// viscosity [T].
+  /// Brings elements to the requested step; `wave_time`: the step that each has so far, without viscosity
+  /// [T].
   void start(const std::vector<Real>& wave_time, World& world);
   void declare(const World& world, Accesses& a) const;
   /// Notes elements of a block that lack mass, and makes `step_limit` what it will be with it. Returns

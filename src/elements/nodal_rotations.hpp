@@ -6,7 +6,8 @@
 
 namespace courant {
 
-/// Rotations of nodes (state/shared_fields.hpp), registered by the first who has elements with moments.
+/// Rotations of nodes (state/shared_fields.hpp), registered by the first pass with elements that have
+/// moments.
 struct NodalRotations {
   Field<Real>&angle, &speed, &moment, &inertia;
   Field<Index>& none;

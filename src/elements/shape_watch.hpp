@@ -10,7 +10,7 @@ namespace courant {
 /// change, and writes what is missing into `maxima` of the world, for the verdict.
 class ShapeWatch : public Pass, public Restartable {
  public:
-  /// Does nothing until some steps after the last look: a look takes as long as two steps.
+  /// Does nothing until some steps after the last check: a check takes the time of two steps.
   virtual void look(World& world, std::int64_t cycle) = 0;
 };
 

@@ -1,7 +1,6 @@
 #pragma once
-// How a deck becomes a world: every room registers builders. A builder is a function whose parameters say
-// what it reads (const T&) and what it fills (T&); within a phase all who fill a T come before those who read
-// it.
+// From deck to world: every folder registers builders. A builder is a function whose parameters state what it
+// reads (const T&) and fills (T&). Within a phase all builders that fill a T come before those that read it.
 #include <functional>
 #include <map>
 #include <memory>
@@ -18,24 +17,24 @@
 
 namespace courant {
 
-/// What builders leave for each other and for the run: one value of each type.
+/// Values that builders pass to each other and to the run, one of each type.
 class Assembly {
  public:
-  /// Made empty where there is none yet.
+  /// Created empty if it does not exist.
   template <class T>
   T& of() {
     std::shared_ptr<void>& value = values_[typeid(T)];
     if (!value) value = std::make_shared<T>();
     return *static_cast<T*>(value.get());
   }
-  /// An empty one where no builder asked for it.
+  /// An empty one if no builder requested it.
   template <class T>
   const T& get() const {
     static const T none{};
     const auto at = values_.find(typeid(T));
     return at == values_.end() ? none : *static_cast<const T*>(at->second.get());
   }
-  /// Puts in a value that lives elsewhere, and longer.
+  /// Inserts a value that is owned elsewhere and lives longer.
   template <class T>
   void lend(T& value) {
     values_[typeid(T)] = std::shared_ptr<void>(std::shared_ptr<void>(), &value);
@@ -49,9 +48,10 @@ class Assembly {
   std::map<std::type_index, std::shared_ptr<void>> values_;
 };
 
-/// The only order that is given; all else follows from what builders fill and read, then from their names.
+/// The only prescribed order; the rest follows from the values that builders fill and read, then from their
+/// names.
 enum class BuildPhase {
-  model,        ///< what adds to the model, as inlets do
+  model,        ///< additions to the model, such as inlets
   parts,        ///< materials and sections
   particles,    ///< and the settings of their scheme
   nodes,        ///< of the world, and its shell faces
@@ -61,14 +61,14 @@ enum class BuildPhase {
   settings,     ///< of particles, which need faces and bodies
   conditions,   ///< loads, prescribed motion, rigid walls
   flow,         ///< passes over particles
-  body_passes,  ///< passes over bodies, pressure on faces; what single files add
+  body_passes,  ///< passes over bodies, pressure on faces; additions by single files
   faces,        ///< contact of nodes with faces and of edges
   joints,       ///< constraints between bodies and between nodes
   node_passes,  ///< from forces of elements to the motion of nodes
-  checks,       ///< of what is there now
+  checks,       ///< of the complete world
 };
 
-/// What is there from the start, or that all may add to: sets no order.
+/// A value that exists from the start, or to which all may add: defines no order.
 template <class T>
 inline constexpr bool sets_order = true;
 template <>
@@ -85,14 +85,14 @@ inline constexpr bool sets_order<LeftOut> = false;
 struct WorldBuilder {
   BuildPhase phase;
   std::string name;
-  bool goes_on = false;  ///< runs, too, where the deck has errors already, so that it may report its own
+  bool goes_on = false;  ///< also runs if the deck has errors, to report more of them
   std::vector<std::type_index> fills{}, reads{};
   std::function<void(Assembly&)> run{};
 };
 
 std::vector<WorldBuilder>& world_builders();
-/// Those of `all` in the order that they run. Throws std::logic_error that names them where they wait for
-/// each other.
+/// The builders of `all` in the order of execution. Throws std::logic_error, which names them, if they wait
+/// for each other.
 std::vector<const WorldBuilder*> in_order(const std::vector<WorldBuilder>& all);
 /// Runs all builders of phases `from` to `to`, both included.
 void build(Assembly& assembly, BuildPhase from, BuildPhase to);

@@ -1,5 +1,5 @@
 #pragma once
-// The card of an ASCII history that one file adds: how often.
+// The card of an ASCII history added by one file: its interval.
 #include <string>
 #include <utility>
 
@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Derive one type for each keyword, which the deck then asks for.
+/// Derive one type for each keyword.
 struct HistoryInterval : Entry {
   Real dt = 0;
   int binary = 0, ioopt = 1;
@@ -34,7 +34,7 @@ KeywordOf<Card> history_interval(std::string name, std::string purpose) {
                                 {"IOOPT", &Card::ioopt, "-", "how LCUR counts", no_effect_but(1)}}}}};
 }
 
-/// Interval that a deck asks for by its card; 0: not asked for [T]
+/// Interval requested by the card of a deck; 0: not requested [T]
 template <class Card>
 Real interval_in(const Deck& deck) {
   const auto* card = deck.last<Card>();

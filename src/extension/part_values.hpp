@@ -1,5 +1,5 @@
 #pragma once
-// What builders of one room leave for those of others that must not know it.
+// Values that builders of one folder pass to those of folders that must not include it.
 #include <optional>
 #include <vector>
 
@@ -10,7 +10,7 @@ namespace courant {
 /// Filled once ModelPart::rigid and ::null are set.
 struct PartKinds {};
 
-/// What *MAT_RIGID says about stiffness and mass, for shells and contact.
+/// Stiffness and mass of *MAT_RIGID, for shells and contact.
 struct RigidMaterial {
   Real ro = 0;  ///< density [M/L3]
   Real E = 0;   ///< Young's modulus [M/LT2]
@@ -21,18 +21,18 @@ struct RigidParts {
   std::vector<std::optional<RigidMaterial>> of_part{};  ///< nothing: the material is another one
 };
 
-/// Of the material of each part, times SSF of *PART_CONTACT; 0: it has none. [M/LT2]
+/// Bulk modulus of the material of each part, times SSF of *PART_CONTACT; 0: none. [M/LT2]
 struct BulkModuli {
   std::vector<Real> of_part{};
   Real operator()(Index part) const { return of_part[static_cast<std::size_t>(part)]; }
 };
 
-/// Nodes that the world needs besides those of its elements, indices into Model::nodes.
+/// Nodes of the world besides those of its elements, indices into Model::nodes.
 struct MoreNodes {
   std::vector<Index> nodes{};
 };
 
-/// Whether a contact goes on with faces that deletion of elements lays bare.
+/// Whether a contact includes faces exposed by deleted elements.
 struct InnerFaces {
   bool wanted = false;
 };
@@ -42,17 +42,17 @@ struct Movers {
   bool any = false;
 };
 
-/// Nodes whose mass is no part of that of their body, indices into World::nodes.
+/// Nodes whose mass is not part of that of their body, indices into World::nodes.
 struct UnweighedNodes {
   std::vector<Index> nodes{};
 };
 
-/// What constraints leave of the step of elements. [-]
+/// Fraction of the step of elements that constraints allow. [-]
 struct StepShare {
   Real value = 1;
 };
 
-/// Filled by what makes nodes follow others.
+/// Filled by constraints of nodes on other nodes.
 struct TiedNodes {};
 
 /// Whether mass scaling adds mass in the run.
@@ -60,12 +60,12 @@ struct MassGrowth {
   bool in_run = false;
 };
 
-/// Rules of particles that their contact keeps.
+/// Rules of particles for their contact.
 struct ParticleContactRules {
   bool particles = false;              ///< there are some
   bool skip_inactive = false;          ///< ICONT
   bool thickness_from_volume = false;  ///< ITHK
-  Real reach_margin = 0;               ///< by which particles move between two searches [L]
+  Real reach_margin = 0;               ///< motion of particles between two searches [L]
 };
 
 /// Filled when particles have their pressures and equations of state.

@@ -42,7 +42,7 @@ class Gauge {
   const GaugeLayout& layout() const { return layout_; }
   Real interval() const { return interval_; }
   /// Appends boxes that hold all that the gauge measures; particles within a kernel's reach of them are near
-  /// it. None: it asks for no particles.
+  /// it. None: it needs no particles.
   virtual void cover(const GaugeView& view, std::vector<GaugeBox>& boxes) const = 0;
   virtual bool takes_forces() const { return false; }
   /// Values in the order of the columns of `layout`. `near`: particles near it, ascending.
@@ -90,7 +90,7 @@ std::unique_ptr<Gauge> make_flux_gauge(GaugeLayout layout, Real interval, int di
 std::unique_ptr<Gauge> make_force_gauge(GaugeLayout layout, Real interval, std::vector<char> faces,
                                         const Vec& centre, const World& world);
 
-/// All gauges of a deck. A pass of no phase: the run asks it when one of them is due.
+/// All gauges of a deck. A pass of no phase: the run calls it when one of them is due.
 class Gauges : public Pass {
  public:
   Gauges(std::vector<std::unique_ptr<Gauge>> gauges, KernelChoice kernel, BodyAcceleration loads)

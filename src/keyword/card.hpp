@@ -1,6 +1,6 @@
 #pragma once
 // A keyword is a table: field name, columns, type, dimension, default, range, one-line meaning. Parser,
-// defaults, checks, `courant keywords`, docs/keywords.md and error texts all come from that one table. Each
+// defaults, checks, `courant keywords`, docs/keywords.md and error texts derive from that one table. Each
 // folder registers its own.
 //
 //   struct SectionSph : Entry { Id secid; Real cslh, hmin, ...; };
@@ -28,8 +28,7 @@
 
 namespace courant {
 
-/// Base of every card struct: where it is in the deck. `title` is the text of a _TITLE, _ID or heading
-/// card.
+/// Base of every card struct: its location in the deck. `title` is the text of a _TITLE, _ID or heading card.
 struct Entry {
   std::int32_t file = -1;     ///< index into Deck::files
   std::int32_t line = 0;      ///< of the first data line (the title or heading line, if there is one)
@@ -37,7 +36,7 @@ struct Entry {
   std::int32_t name = 0;      ///< which of the keyword's names the deck uses
 };
 
-/// What is done with a value that differs from the default.
+/// Treatment of a value that differs from the default.
 enum class Honour {
   yes,          ///< the solver uses it
   no,           ///< physics that is not supported: error
@@ -51,8 +50,8 @@ enum class Check { any, positive, not_negative, not_positive };
 /// moves it.
 enum class Spatial { none, point, direction };
 
-/// The few integers that a field may have; none: any. A constant, as all of a field is: tables whose fields
-/// had to be built and taken down would be slow to compile.
+/// The integers that a field may have; none: any. It is a constant, as the whole field is: tables with
+/// constructors and destructors of fields would be slow to compile.
 class Allowed {
  public:
   constexpr Allowed() = default;
@@ -88,7 +87,7 @@ struct FieldRules {
   IdSpace refers =
       IdSpace::none;  ///< what the ids in this field number; for the first field KeywordOf::id_space
   Spatial spatial = Spatial::none;
-  bool pairs = false;  ///< of a list of ids: two and two on each card, so blank and 0 stay in it
+  bool pairs = false;  ///< of a list of ids: in pairs on each card, so blank and 0 remain in it
   CurveOf curve{};     ///< of curve ids; *INCLUDE_TRANSFORM changes the units of the curves
 };
 
@@ -100,11 +99,11 @@ constexpr FieldRules no_effect_but(Real standard) {
   return {.standard = standard, .honour = Honour::ignored};
 }
 
-/// One field. `member` says where the value goes and so of which type it is: Id and int are I, Real is F,
+/// One field. `member` gives the destination and so the type of the value: Id and int are I, Real is F,
 /// std::string A. A vector member takes this and all following columns of the card, and (on a repeated card)
 /// of all cards up to the next keyword; blank and 0 entries are skipped for Id. Two or more vectors on a card
-/// take one column each, as a table, and each card adds a row, blank fields as 0 or "". Its texts are
-/// literals: nobody keeps others.
+/// take one column each, as a table, and each card adds a row, blank fields as 0 or "". Its texts must be
+/// literals: they are not copied.
 template <class T>
 struct FieldOf {
   /// monostate, the default: columns that are skipped
@@ -115,9 +114,9 @@ struct FieldOf {
   const char* dimension = "";
   const char* meaning = "";
   FieldRules rules{};
-  /// Where it depends on other fields (a type beside it) what the ids number; instead of rules.refers.
+  /// Id space where it depends on other fields (a type beside it); instead of rules.refers.
   IdSpace (*refers)(const T&) = nullptr;
-  /// Where it depends on other fields what the numbers of the curve are; instead of rules.curve.
+  /// Dimensions of the curve where they depend on other fields; instead of rules.curve.
   CurveOf (*curve_of)(const T&) = nullptr;
 };
 
@@ -126,11 +125,11 @@ struct CardOf {
   std::vector<FieldOf<T>> fields{};
   bool optional = false;  ///< may be missing at the end of the keyword
   bool repeat = false;    ///< repeats up to the next keyword, filling the vector members
-  /// Of a repeated one: it ends, too, where all required fields of card 1 are on the line as integers > 0,
+  /// Of a repeated one: it also ends where all required fields of card 1 are on the line as integers > 0,
   /// with which the next entry begins.
   bool until_entry = false;
-  /// Of a repeated one with one list of texts: lines are taken whole, with their blanks and commas, and with
-  /// values instead of &names.
+  /// Of a repeated one with one list of texts: lines are read complete, with their blanks and commas, and
+  /// with values instead of &names.
   bool whole_lines = false;
   /// Of a repeated one: it ends where this does not hold for the rows read so far, and the next card follows.
   bool (*more)(const T&) = nullptr;
@@ -141,29 +140,29 @@ template <class T>
 struct KeywordOf {
   std::vector<std::string> names{};  ///< without '*', the first is shown: {"MAT_NULL", "MAT_009"}
   std::string purpose{};
-  /// What the first field numbers: an id may stand once among all keywords that share the space.
+  /// Id space of the first field: an id may occur once among all keywords that share the space.
   IdSpace id_space = IdSpace::none;
   bool title_option = false;  ///< NAME_TITLE adds an A80 card, stored in the member named by `title`
   bool id_option = false;     ///< NAME_ID adds a card ID I10, HEADING A70
   bool mpp_option = false;    ///< NAME_MPP adds one or two cards for parallel runs, which have no effect here
   bool collect_option = false;  ///< NAME_COLLECT adds to what an earlier entry with the same id defines
-  /// The id may be that of an earlier entry: who builds this one gives it another, and tells so.
+  /// The id may be that of an earlier entry: the code that builds this one assigns another and reports it.
   bool id_may_repeat = false;
   bool heading = false;  ///< always starts with an A70 heading card (*PART)
   std::string T::*title = nullptr;
   Id T::*id = nullptr;
-  /// The coordinate system in which locations and directions are given, 0 global. With one *INCLUDE_TRANSFORM
-  /// leaves them alone: the system has moved.
+  /// The coordinate system in which locations and directions are given, 0 global. With a system
+  /// *INCLUDE_TRANSFORM does not change them: the system moves.
   Id T::*local = nullptr;
-  /// Counts once in a deck, with one set of cards: of several the last.
+  /// Counts once in a deck, with one set of cards; of several the last one counts.
   bool once = false;
   bool many = true;  ///< several card sets may follow one keyword line
   /// Not empty: what Courant lacks to honour the keyword ("solid elements"). Its cards are read and checked,
   /// counted by `courant check`, and the deck is refused.
   std::string lacking{};
   std::vector<CardOf<T>> cards{};
-  /// What the table cannot state about a change of units or of a motion: done after the fields' own rules.
-  /// They return why it cannot be done, else nothing.
+  /// Changes of units and motions beyond the rules of the fields, applied after these. They return the reason
+  /// if it is impossible, otherwise nothing.
   std::string (*convert)(T&, const Conversion&) = nullptr;
   std::string (*move)(T&, const Affine&) = nullptr;
 };

@@ -24,7 +24,7 @@ constexpr FieldRules or_blank(Real standard) {
   return {.standard = standard};
 }
 
-/// Of a field that names a curve: dimensions of its numbers.
+/// For a field that names a curve: dimensions of its numbers.
 constexpr FieldRules over(FieldRules rules, const char* abscissa, const char* ordinate) {
   rules.curve = {abscissa, ordinate};
   return rules;

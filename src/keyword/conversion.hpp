@@ -1,5 +1,5 @@
 #pragma once
-// What *INCLUDE_TRANSFORM does to the entries of a file: offsets of ids, factors of units, a motion of
+// The effect of *INCLUDE_TRANSFORM on the entries of a file: offsets of ids, factors of units, a motion of
 // points.
 #include <array>
 #include <Eigen/Geometry>
@@ -40,7 +40,7 @@ struct Conversion {
   std::string prefix, suffix;       ///< of titles
   std::vector<Id> transformations;  ///< *DEFINE_TRANSFORMATION ids, to be applied in this order
   bool any() const { return offsets.any() || units.any() || !prefix.empty() || !suffix.empty(); }
-  /// What a file gets that is included with `inner` by a file that has this conversion.
+  /// The conversion of a file that is included with `inner` by a file with this conversion.
   Conversion then(const Conversion& inner) const;
 };
 

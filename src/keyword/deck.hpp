@@ -1,6 +1,6 @@
 #pragma once
-// A deck that was read: typed entries of every supported keyword, and where each stands, so that later checks
-// can name the file, line, column, keyword and field.
+// A deck that was read: typed entries of every supported keyword, and the location of each, so that later
+// checks can name the file, line, column, keyword and field.
 #include <functional>
 #include <map>
 #include <memory>
@@ -22,11 +22,11 @@ struct DeckFile {
   std::string name;                            ///< as named by the user
   std::shared_ptr<const SourceText> source{};  ///< its text, kept for messages
   std::int32_t parent = -1;  ///< index of the file that includes this one, -1: the deck itself
-  int line = 0;              ///< where it does so
-  Conversion conversion{};   ///< what *INCLUDE_TRANSFORM asks for
+  int line = 0;              ///< line of the include
+  Conversion conversion{};   ///< of *INCLUDE_TRANSFORM
 };
 
-/// What becomes of a keyword.
+/// Treatment of a keyword.
 enum class Treatment {
   honoured,
   output_only,  ///< a request for output that is not supported: warning
@@ -37,11 +37,11 @@ struct KeywordUse {
   int blocks = 0;           ///< keyword lines
   std::size_t entries = 0;  ///< sets of cards below them: nodes, elements, materials, ...
   Treatment treatment = Treatment::honoured;
-  std::string lacking{};  ///< of a refused one: what Courant lacks, "solid elements"
-  std::size_t lines = 0;  ///< data lines, of keywords without a table, whose entries nobody can count
+  std::string lacking{};  ///< of a refused one: the missing feature, "solid elements"
+  std::size_t lines = 0;  ///< data lines, of keywords without a table, whose entries cannot be counted
 };
 
-/// A parameter as *PARAMETER and its kin define it.
+/// A parameter as a *PARAMETER keyword defines it.
 struct DeckParameter {
   std::string name{};  ///< as declared
   char type = 'R';     ///< R real, I integer, C text
@@ -61,7 +61,7 @@ class Deck {
     const auto it = entries_.find(std::type_index(typeid(T)));
     return it == entries_.end() ? none : *std::static_pointer_cast<std::vector<T>>(it->second);
   }
-  /// The entry that counts where a keyword should stand once: the last; nullptr if there is none.
+  /// The entry that counts where a keyword should occur once: the last; nullptr if there is none.
   template <class T>
   const T* last() const {
     return all<T>().empty() ? nullptr : &all<T>().back();
@@ -72,19 +72,19 @@ class Deck {
     if (!slot) slot = std::make_shared<std::vector<T>>();
     return *std::static_pointer_cast<std::vector<T>>(slot);
   }
-  /// Gives back the memory of all entries of one keyword, once nobody will ask for them.
+  /// Releases the memory of all entries of one keyword, once they are no longer needed.
   template <class T>
   void release() {
     entries_.erase(std::type_index(typeid(T)));
   }
-  /// Gives back the text of the files: from then on messages about a field name its line, but not its column.
+  /// Releases the text of the files: from then on messages about a field name its line, but not its column.
   void release_sources() {
     for (DeckFile& file : files) file.source.reset();
   }
 
   Location where(const Entry& entry) const;  ///< first data line
-  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` is in
-  /// it or below; at the field if it stands nowhere, as behind a parameter.
+  /// Line and column of a named field. On a repeated card: in that row (from 0), and where `value` is in it
+  /// or below; at the field if the value is not in the text, as with a parameter.
   struct Repeat {
     std::size_t row = 0;
     Id value = 0;  ///< 0: not searched for
@@ -97,13 +97,14 @@ class Deck {
   /// Adds `file:line:column: error: *KEYWORD field N (NAME, meaning [dimension]): <message>` with a hint.
   void error(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
              std::string hint = {}) const;
-  /// The same of a value that is not supported, beside which all else can still be judged (contained).
+  /// The same for an unsupported value that does not affect further checks (contained).
   void refuse(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
               std::string hint = {}) const;
   void warning(Diagnostics& diagnostics, const Entry& entry, std::string_view field, std::string message,
                std::string hint = {}) const;
 
-  /// Notes who defines an id; the entry that did so before, or nullptr if this is the first.
+  /// Records the entry that defines an id. Returns the entry that defined it before, or nullptr if this is
+  /// the first.
   const Entry* define(IdSpace space, Id id, const Entry& entry);
   /// For messages about a missing definition: "there is none", or "it is a *MAT_RIGID, defined at deck.k:12".
   std::string found_instead(IdSpace space, Id id) const;
@@ -131,9 +132,8 @@ class Deck {
 
 struct ReadOptions {
   std::map<std::string, std::string> parameters;  ///< --param NAME=VALUE: override *PARAMETER of the deck
-  std::string more{};                             ///< cards that a call adds behind those of the deck
-  /// Text of a file, nothing if it cannot be read; empty: files of this machine. Tests read decks from
-  /// memory.
+  std::string more{};                             ///< cards that a call appends to the deck
+  /// Text of a file, nothing if it cannot be read; empty: files of this system. Tests read decks from memory.
   std::function<std::optional<std::string>(const std::string& path)> open{};
 };
 

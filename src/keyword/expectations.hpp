@@ -1,5 +1,5 @@
 #pragma once
-// Checks of numbers that the tables of fields cannot state, as they depend on each other.
+// Checks of numbers that depend on each other, which the tables of fields cannot express.
 #include <fmt/format.h>
 
 #include "keyword/deck.hpp"

@@ -1,12 +1,11 @@
 #pragma once
-// What ids number. An id represents one thing within its space: node 5 and part 5 have nothing to do with
-// each other.
+// What ids number. An id is unique within its space: node 5 and part 5 are unrelated.
 #include <cstdint>
 
 namespace courant {
 
-/// No id is larger: as many digits as fields of 20 columns keep exactly elsewhere, and far enough from the
-/// end of its type that offsets of many nested includes may be added.
+/// No id is larger: the number of digits that fields of 20 columns hold exactly in other programs, and far
+/// enough from the limit of its type for offsets of many nested includes.
 inline constexpr std::int64_t largest_id = 9'999'999'999'999'999;
 
 enum class IdSpace : std::uint8_t {
@@ -33,7 +32,7 @@ enum class IdSpace : std::uint8_t {
   coordinate_system,
   vector,
   transformation,
-  definition,  ///< whatever else *DEFINE_ numbers
+  definition,  ///< all other ids of *DEFINE_
   contact,
   boundary,  ///< prescribed motions, single-point constraints
   rigid_wall,

@@ -1,5 +1,5 @@
 #pragma once
-// The type-erased form of a keyword: its table, and how its entries are stored in a deck.
+// The type-erased form of a keyword: its table, and the storage of its entries in a deck.
 #include <algorithm>
 #include <cstddef>
 #include <functional>
@@ -19,13 +19,13 @@ namespace courant {
 struct IdUse {
   std::size_t card = 0, field = 0;
   IdSpace space = IdSpace::none;
-  Id id = 0;             ///< as it stands, 0 and negative ones too
+  Id id = 0;             ///< as in the deck, also 0 and negative ones
   bool defines = false;  ///< the entry's own id
 };
 
 class EntrySink;
 
-/// Entries that are handed in must be of this keyword.
+/// Entries passed to its functions must be of this keyword.
 class KeywordSpec : public KeywordTable {
  public:
   explicit KeywordSpec(KeywordTable table) : KeywordTable(std::move(table)) {}
@@ -43,12 +43,12 @@ class KeywordSpec : public KeywordTable {
   void for_each_id(const Entry& entry, const std::function<void(const IdUse&)>& visit) const;
   /// The number in a field of an entry; 0 for texts, lists and skipped columns.
   Real number_of(const Entry& entry, std::size_t card, std::size_t field) const;
-  /// Texts and lists in a field: their values with all digits, apart by blanks; "" for single numbers.
+  /// Texts and lists in a field: their values with all digits, separated by blanks; "" for single numbers.
   std::string text_of(const Entry& entry, std::size_t card, std::size_t field) const;
-  /// Shifts ids and changes units; returns why it cannot be done, else nothing.
+  /// Shifts ids and changes units; returns the reason if it is impossible, otherwise nothing.
   std::string convert(Entry& entry, const Conversion& conversion) const;
-  /// Moves the locations and directions in the entries for which `motion_of` gives a motion. `refuse` hears
-  /// why an entry cannot be moved.
+  /// Moves the locations and directions in the entries for which `motion_of` gives a motion. `refuse` gets
+  /// the reason why an entry cannot be moved.
   void move(Deck& deck, std::int32_t keyword, const std::function<const Affine*(const Entry&)>& motion_of,
             const std::function<void(const Entry&, const std::string&)>& refuse) const;
 
@@ -62,8 +62,7 @@ class KeywordSpec : public KeywordTable {
 
   IdSpace space_of(const Entry& entry, std::size_t card, std::size_t field) const;
   bool is_own_id(std::size_t card, std::size_t field) const;
-  /// Card and field of each member, once: where it is in several cards, of which a set has one, the one
-  /// that is there.
+  /// Card and field of each member, once: where it is in several cards, of which a set has one, in that card.
   void for_each_member(const Entry& entry,
                        const std::function<void(std::size_t card, std::size_t field)>& visit) const;
   bool shares_members_ = false;  ///< some member is in several cards
@@ -74,7 +73,7 @@ class EntrySink {
  public:
   explicit EntrySink(const KeywordSpec& spec) : spec_(spec) {}
   virtual ~EntrySink() = default;
-  virtual void expect(std::size_t entries) = 0;  ///< room for so many more, a hint
+  virtual void expect(std::size_t entries) = 0;  ///< a hint: the number of entries to come
   virtual void begin(const Entry& where) = 0;    ///< a new entry, all fields at their standard values
   virtual Entry& entry() = 0;                    ///< the entry as read so far
   virtual void commit() = 0;                     ///< stores the entry in the deck
@@ -91,8 +90,8 @@ class EntrySink {
   const KeywordSpec& spec_;
 };
 
-/// What takes the type by which the deck stores the entries. It is compiled for each such type: every line
-/// counts.
+/// The part that depends on the type of the stored entries. It is compiled for each such type, so it must be
+/// short.
 template <class T>
 class KeywordSpecOf : public KeywordSpec {
   class Sink : public EntrySink {
@@ -101,7 +100,7 @@ class KeywordSpecOf : public KeywordSpec {
         : EntrySink(spec), standard_(spec.standard_), store_(store) {}
     void expect(std::size_t entries) override {
       const std::size_t wanted = store_.size() + entries;
-      // at least twice as many, so that a thousand short blocks do not move what is there a thousand times
+      // at least twice as many, so that a thousand short blocks do not move the entries a thousand times
       if (wanted > store_.capacity()) store_.reserve(std::max(wanted, 2 * store_.capacity()));
     }
     void begin(const Entry& where) override { entry_ = standard_, static_cast<Entry&>(entry_) = where; }

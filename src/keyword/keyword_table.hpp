@@ -1,5 +1,5 @@
 #pragma once
-// The table of a keyword: what the reader, the messages and the documentation work with. The build makes such
+// The table of a keyword, used by the reader, the messages and the documentation. The build makes such
 // tables, with the structs of the entries, of the files *_cards.yaml (cmake/keyword_tables.cpp).
 #include <cstddef>
 #include <functional>
@@ -15,7 +15,7 @@ namespace courant {
 
 enum class FieldType { skip, integer, id, real, text, ids, reals, texts };
 
-/// Of which type a field's value is, and how far from the start of the entry it begins.
+/// Type of the value of a field, and its offset in the entry.
 struct FieldMember {
   FieldType type = FieldType::skip;
   std::size_t offset = 0;
@@ -28,9 +28,9 @@ struct FieldMember {
 struct FieldSpec : FieldMember {
   std::string_view name, dimension, meaning;
   FieldRules rules;
-  /// Where other fields decide (a type beside it) what the ids number; instead of rules.refers.
+  /// Id space where it depends on other fields (a type beside it); instead of rules.refers.
   std::function<IdSpace(const Entry&)> refers{};
-  /// Where other fields decide what the numbers of the curve are; instead of rules.curve.
+  /// Dimensions of the curve where they depend on other fields; instead of rules.curve.
   std::function<CurveOf(const Entry&)> curve_of{};
   int column = 0;           ///< first column in standard format, from 0
   bool takes_rest = false;  ///< a vector that takes all further columns of the card
@@ -100,7 +100,7 @@ std::function<Out(const Entry&, More...)> of_entry(Out (*function)(const T&, Mor
 
 }  // namespace detail
 
-/// It is compiled for each struct: every line counts.
+/// It is compiled for each struct, so it must be short.
 template <class T>
 KeywordTable table_of(KeywordOf<T> keyword) {
   KeywordTable out{.names = std::move(keyword.names),

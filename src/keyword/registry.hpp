@@ -31,7 +31,7 @@ struct RegisterKeyword {
   }
 };
 
-/// What a keyword line names: the registry's keyword, which of its names, and the options _TITLE, _ID,
+/// Result of a look-up of a keyword line: the keyword in the registry, its name, and the options _TITLE, _ID,
 /// _MPP and _COLLECT.
 struct KeywordMatch {
   int keyword = -1;  ///< index into the registry, -1: unknown
@@ -39,7 +39,7 @@ struct KeywordMatch {
   bool title = false, id = false, mpp = false, collect = false;
 };
 
-/// Look-up by name; holds for the keywords registered when it was made.
+/// Look-up by name, for the keywords registered at its construction.
 class KeywordIndex {
  public:
   KeywordIndex();
@@ -52,11 +52,11 @@ class KeywordIndex {
 /// "*PART card 1 field 2 (SECID, section id [-])", the beginning of every message about a field.
 std::string describe_field(const KeywordSpec& spec, int name, std::size_t card, std::size_t field);
 
-/// Cards of one keyword as text, and the whole of docs/keywords.md.
+/// Cards of one keyword as text, and all of docs/keywords.md.
 std::string keyword_help(const std::string& name);  ///< empty if there is no such keyword
 std::string keyword_list();
-/// What `courant keywords NAME` says: the cards of that keyword, and the names that go on from it or contain
-/// it; for names without a table why they are refused, then `found` is false.
+/// Output of `courant keywords NAME`: the cards of that keyword, and the names that start with or contain it;
+/// for names without a table the reason of the refusal, with `found` false.
 struct KeywordAnswer {
   bool found = false;
   std::string text, hint;

@@ -1,5 +1,6 @@
 #pragma once
-// The text of a deck's files and how its lines are cut: fixed columns (standard, I10, LONG) or commas.
+// The text of the files of a deck, and the splitting of its lines: fixed columns (standard, I10, LONG) or
+// commas.
 #include <memory>
 #include <string>
 #include <string_view>
@@ -11,7 +12,7 @@ namespace courant {
 
 enum class CardFormat { standard, i10, long_fields };
 
-/// Why a file is no text of a deck.
+/// The reason why a file is not the text of a deck.
 struct SourceFault {
   int line = 0, column = 0;
   std::string message, hint;
@@ -39,7 +40,7 @@ std::shared_ptr<SourceText> make_source(std::string text);
 std::string_view trimmed(std::string_view text);
 std::string upper_case(std::string_view text);
 
-/// A field as it is in the deck, without blanks around it.
+/// A field as in the deck, without blanks around it.
 struct Slice {
   std::string_view text;
   int column = 1;  ///< of its first character (of the field, if that is blank), from 1
@@ -50,11 +51,11 @@ struct Slice {
 struct KeywordLine {
   std::string name;
   CardFormat format = CardFormat::standard;
-  std::string_view rest;  ///< what follows the name
+  std::string_view rest;  ///< text behind the name
 };
 KeywordLine parse_keyword_line(std::string_view line, CardFormat file_format);
 
-/// Steps over the data lines below a keyword line: comments are skipped, the next keyword ends them.
+/// Iterates over the data lines below a keyword line: comments are skipped, the next keyword ends them.
 class DataLines {
  public:
   /// `first`: index of the line to begin with.
@@ -83,19 +84,20 @@ inline void skip_mpp_lines(DataLines& data) {
   if (!data.done() && !data.line().empty() && data.line()[0] == '&') data.step();
 }
 
-/// The card holds nothing but a name of a file.
+/// The card holds only the name of a file.
 bool holds_file_name(const CardSpec& card);
 
-/// A name of a file, without quotes around it; behind " +" it goes on in the next line.
+/// A name of a file, without quotes around it; after " +" it continues in the next line.
 std::string read_file_name(DataLines& data);
 
-/// Steps over a card, of one line or, if it holds a name of a file, of several.
+/// Skips a card, of one line or, if it holds a name of a file, of several.
 void skip_card(DataLines& data, const CardSpec& card);
 
 /// Whether `line` has parentheses or <...>, all of them closed; commas inside them do not separate fields.
 bool has_brackets(std::string_view line);
 
-/// Place of the next comma that separates fields, or npos. `brackets`: what has_brackets says of the line.
+/// Position of the next comma that separates fields, or npos. `brackets`: result of has_brackets for the
+/// line.
 std::size_t next_comma(std::string_view line, std::size_t from, bool brackets);
 
 /// Whether a comma within the first `columns` columns separates fields.
@@ -103,22 +105,22 @@ bool is_comma_line(std::string_view line, std::size_t columns);
 
 int field_width(const FieldSpec& field, CardFormat format);
 
-/// Cuts a data line into the card's fields; a list takes all further columns. `too_many`: fields of a comma
-/// line beyond the card's last, or values in the columns behind it.
+/// Splits a data line into the fields of the card; a list takes all further columns. `too_many`: fields of a
+/// comma line beyond the card's last, or values in the columns behind it.
 void split_card(std::string_view line, const CardSpec& card, CardFormat format, std::vector<Slice>& slices,
                 int* too_many = nullptr);
 
-/// The last column of a card in a format that is not commas; a list goes to the end of the line.
+/// The last column of a card in a format that is not commas; a list extends to the end of the line.
 std::size_t last_column(const CardSpec& card, CardFormat format);
 
-/// Whether a number of a line without commas runs across a column: its end would be lost without a word.
+/// Whether a number of a line without commas runs across a column: its end would be lost silently.
 inline bool runs_across(std::string_view line, std::size_t column) {
   constexpr std::string_view of_numbers = "0123456789.+-";
   return line.size() > column && column > 0 && of_numbers.find(line[column]) != std::string_view::npos &&
          of_numbers.find(line[column - 1]) != std::string_view::npos;
 }
 
-/// Cuts a line into fields of one width, for cards without a table (*PARAMETER, _ID).
+/// Splits a line into fields of one width, for cards without a table (*PARAMETER, _ID).
 std::vector<Slice> split_equal(std::string_view line, int width, int limit);
 
 }  // namespace courant

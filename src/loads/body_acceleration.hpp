@@ -1,5 +1,5 @@
 #pragma once
-// What *LOAD_BODY and *LOAD_GRAVITY_PART give: an acceleration over place, time and part.
+// *LOAD_BODY and *LOAD_GRAVITY_PART: an acceleration over position, time and part.
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,7 +13,7 @@ namespace courant {
 /// nothing that belongs to no part (part < 0). Cheap to copy.
 class BodyAcceleration {
  public:
-  /// The loads at one time, so that a loop looks at curves once. Also the difference of two times.
+  /// The loads at one time, so that a loop evaluates curves once. Also the difference of two times.
   class At {
    public:
     /// [L/T2]

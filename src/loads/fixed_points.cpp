@@ -63,7 +63,7 @@ class FixedPoints : public Constraint, public BoundaryForceReporter {
 
   Points points_;
   Field<Index>& fixed_;
-  Field<Real>* support_ = nullptr;  ///< null: nobody asks
+  Field<Real>* support_ = nullptr;  ///< null: not needed
 };
 
 }  // namespace

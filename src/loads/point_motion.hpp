@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// f = 0, before anybody adds to it.
+/// f = 0, before all additions.
 std::shared_ptr<Rate> make_clear_forces(Points points);
 /// v += f/m dt_mean, x += v dt; halo particles move with their velocity; points that follow something else
 /// stay.

@@ -158,7 +158,7 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   SensorGates gates_;
   std::vector<Group> groups_;                      ///< the first one is empty
   Field<Index>& group_;                            ///< of each point
-  Field<Real>* work_;                              ///< on each point so far; null: nobody asks
+  Field<Real>* work_;                              ///< on each point so far; null: not needed
   Field<Index>* axes_;                             ///< null: of rotations, or of particles
   std::vector<Index> axes_of_;                     ///< of each group, in this step
   bool around_;                                    ///< some go round an axis

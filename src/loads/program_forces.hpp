@@ -1,5 +1,5 @@
 #pragma once
-// What a program changes while the run goes on: forces on points, and their velocities.
+// Changes by a program during the run: forces on points, and their velocities.
 #include <memory>
 #include <string>
 

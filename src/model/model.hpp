@@ -44,7 +44,7 @@ struct ModelPart {
   Real optt = 0, sft = 1, ssf = 1;  ///< of *PART_CONTACT [L, -, -]
 };
 
-/// Layers that shells of a part have as their own, whatever stands with the part.
+/// Layers of single shells of a part, instead of those of the part.
 struct ModelLayup {
   Index part = 0;                 ///< index into parts
   std::vector<ModelPly> plies{};  ///< from the lower face to the upper
@@ -75,7 +75,7 @@ struct ModelSolid {
   std::array<Index, 10> node{};  ///< in the deck's order; -1 behind the last
 
   /// As corners of a hexahedron. Of a tetrahedron with nodes a, b, c, d, however often it repeats which of
-  /// them: a b c c d d d d, since other ways to repeat them leave a warped face.
+  /// them: a b c c d d d d, since other repetitions leave a warped face.
   std::array<Index, 8> corners() const;
   bool has_nodes_on_edges() const { return node[9] >= 0; }
   /// Ten with nodes on edges; else corners(), and -1 behind them.
@@ -185,7 +185,7 @@ struct OutputTimes {
     implicit,    ///< 2: t_{k+1} = t_k + f(t_{k+1})
     abscissae,   ///< 3: at the abscissae of the curve
   };
-  Real interval = 0;  ///< 0: not asked for [T]
+  Real interval = 0;  ///< 0: not requested [T]
   Rule rule = Rule::interval;
   Curve curve{};  ///< interval over time, positive [T]
   bool asked() const { return interval > 0 || rule != Rule::interval; }
@@ -194,7 +194,7 @@ struct OutputTimes {
 /// A node of *DATABASE_HISTORY_NODE.
 struct HistoryNode {
   Id id = 0;
-  Vec X = Vec::Zero();  ///< place at t = 0 [L]
+  Vec X = Vec::Zero();  ///< position at t = 0 [L]
   std::string title{};
   /// Of an accelerometer: local x from the node to the first of these, y towards the second. 0: none.
   std::array<Id, 2> axes{};
@@ -217,7 +217,7 @@ struct FieldRequests {
   Box box;
 };
 
-/// What the deck asks to be written.
+/// The output requests of the deck.
 struct OutputRequests {
   OutputTimes d3plot;
   int d3plot_count = 0;  ///< NPLTC: interval is ENDTIM / NPLTC if given
@@ -226,7 +226,7 @@ struct OutputRequests {
     int binary = 1;  ///< BINARY
   };
   std::map<std::string, History> histories{};  ///< by the name of the file: glstat
-  /// When; not asked for where the deck does not name it.
+  /// Its times; none where the deck does not name it.
   OutputTimes history(const std::string& name) const {
     const auto at = histories.find(name);
     return at == histories.end() ? OutputTimes() : at->second.times;

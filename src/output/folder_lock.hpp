@@ -5,12 +5,12 @@
 
 namespace courant {
 
-/// While it lives no other run writes its results to the folder. The system gives the lock back when the
-/// process ends, however it ends.
+/// During its lifetime no other run writes its results to the folder. The system releases the lock at any end
+/// of the process.
 class FolderLock {
  public:
   /// Makes the folder where it is missing. Throws OutputError where another run is writing there, or the
-  /// folder cannot be written. File systems without locks are let pass.
+  /// folder cannot be written. File systems without locks are accepted.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

@@ -1,10 +1,10 @@
 #pragma once
-// The numbers of glstat, for all files that have them.
+// The numbers of glstat, for all files that contain them.
 #include "output/sample.hpp"
 
 namespace courant {
 
-/// LS-DYNA knows no potential energy: it counts the work of gravity as external work, see glstat_text.
+/// LS-DYNA has no potential energy: it counts the work of gravity as external work, see glstat_text.
 struct GlstatNumbers {
   Real kinetic = 0, internal = 0, hourglass = 0, stonewall = 0, discrete = 0, sliding = 0;  ///< [ML2/T2]
   Real external_work = 0, eroded_internal = 0, eroded_hourglass = 0, total = 0;             ///< [ML2/T2]

@@ -8,22 +8,22 @@
 
 namespace courant {
 
-/// Around calls of HDF5, of one thread at a time. HDF5 crashes where it gets no memory, at once or later on,
-/// so what it may need is looked for before, and after a fault of HDF5 it is not called any more. It prints
-/// nothing meanwhile.
+/// A guard around calls of HDF5, by one thread at a time. HDF5 crashes if an allocation fails, at once or
+/// later. So the memory that it may need is tested before, and after a fault HDF5 is not called again. HDF5
+/// prints nothing meanwhile.
 class Hdf5Use {
  public:
-  /// `bytes`: of what is written or read, packed or not. Throws OutputError where they are not to be had, or
-  /// HDF5 failed before.
+  /// `bytes`: of written or read data, packed or not. Throws OutputError if they are not available, or HDF5
+  /// failed before.
   Hdf5Use(const std::filesystem::path& file, std::size_t bytes);
   Hdf5Use(const Hdf5Use&) = delete;
   Hdf5Use& operator=(const Hdf5Use&) = delete;
   ~Hdf5Use();
 
-  /// Keeps from here on what each use needs at least, so that the run itself cannot take it. Throws
+  /// Reserves from here on the least memory of each use, so that the run itself cannot allocate it. Throws
   /// std::bad_alloc.
   static void reserve();
-  /// HDF5 reported a fault; what state it is in is not known.
+  /// HDF5 reported a fault; its state is unknown.
   static void failed();
   static bool works();
 

@@ -14,7 +14,7 @@
 namespace courant {
 
 /// Collects samples and appends them to an HDF5 file. Row i of every dataset belongs to /global/time[i]; a
-/// quantity that was not there at a sample is NaN. Datasets, scalars of shape (n), vectors of shape (n, 3),
+/// quantity that is missing in a sample is NaN. Datasets, scalars of shape (n), vectors of shape (n, 3),
 /// symmetric tensors of shape (n, 6), each with an attribute `dimension` (M, L, T):
 ///   /global/{time dt cycle mass velocity kinetic internal potential contact dissipated external_work total
 ///   residual throughput}
@@ -31,25 +31,24 @@ namespace courant {
 ///   active} /driven_particles/<id>/{force work}, /driven_bodies/<part id>/{force moment work},
 ///   /held_particles/<id>/force, /driven_rotations/<id>/{moment work}, /held_rotations/<id>/moment
 ///   /gauges/<name>/{time ...}: rows of their own, at the times of that gauge
-/// A flush replaces the file by a longer one, so that a killed run leaves it readable and others may read it
-/// at any time.
+/// A flush replaces the file by a longer one, so it is readable at any time, also after a killed run.
 class History {
  public:
   explicit History(std::filesystem::path file, std::size_t buffered_samples = 1024,
                    std::chrono::seconds longest_wait = std::chrono::seconds(10));
 
-  /// Goes on with the file that is there, behind its first `rows` rows; what is behind them is taken off.
-  /// Returns how many rows it goes on from: less where the file has less. Throws OutputError.
-  /// `gauge_rows`: the same of the groups of gauges, which have rows of their own.
+  /// Continues an existing file behind its first `rows` rows; later rows are removed. Returns the number of
+  /// rows kept: less if the file has less. Throws OutputError. `gauge_rows`: the same for the groups of
+  /// gauges, which have separate rows.
   std::size_t resume(std::size_t rows, const std::map<std::string, std::int64_t>& gauge_rows = {});
   std::size_t rows() const { return rows_in_file_ + rows_; }  ///< samples so far
 
   /// Adds a sample; writes to the file when the buffer is full or old. Throws OutputError.
   void record(const Sample& sample);
-  /// The same of one gauge, in rows of its own. Throws OutputError.
+  /// The same for one gauge, in separate rows. Throws OutputError.
   void record_gauge(const GaugeLayout& layout, Real t, const std::vector<Real>& values);
   std::map<std::string, std::int64_t> gauge_rows() const;  ///< so far, by name of the gauge
-  /// Appends what is buffered. Call it at the end of the run. Throws OutputError.
+  /// Appends buffered samples. Call it at the end of the run. Throws OutputError.
   void flush();
 
  private:
@@ -73,7 +72,7 @@ class History {
   void put_bodies(const Sample& sample);
   void put_points(const Sample& sample);
   std::size_t bytes_buffered() const;
-  std::size_t enough_rows() const;  ///< buffered ones that are worth a flush
+  std::size_t enough_rows() const;  ///< number of buffered rows that justify a flush
 
   std::filesystem::path file_;
   std::size_t buffered_samples_;

@@ -3,11 +3,10 @@
 
 namespace courant {
 
-/// The line that is behind the HDF5 bytes of history.h5, with their CRC-32. HDF5's own library crashes on
-/// damaged files, so nobody hands it bytes that are not those that were written; it passes over what stands
-/// behind its own.
+/// The line behind the HDF5 bytes of history.h5, with their CRC-32. The HDF5 library crashes on damaged
+/// files, so it gets only bytes with a valid checksum; it ignores bytes behind its own.
 std::string history_checksum(const std::string& bytes);
-/// Takes the line off the content of a file. False where there is none, or the bytes before are others.
+/// Removes the line from the content of a file. False if there is none, or if it does not match the bytes.
 bool take_history_checksum(std::string& content);
 
 }  // namespace courant

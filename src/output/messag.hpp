@@ -14,17 +14,17 @@ namespace courant {
 /// stamp: date and time as text. t, dt: [T]
 std::string status_line(std::int64_t cycle, Real t, Real dt, std::string_view what, std::string_view stamp);
 
-/// The file `messag`: all that a run says. Lines can be passed on to a callback, by which the program shows
-/// them.
+/// The file `messag`: all messages of a run. Lines can be passed on to a callback, with which the program
+/// shows them.
 class Messag {
  public:
   using Echo = std::function<void(std::string_view line)>;
 
-  /// Starts an empty file, or goes on at its end. Throws OutputError.
+  /// Starts an empty file, or appends to it. Throws OutputError.
   explicit Messag(const std::filesystem::path& file, Echo echo = {}, bool append = false);
   /// Adds a line; `text` has no line end. Throws OutputError.
   void line(std::string_view text);
-  /// Adds a line that is not passed on: what few want to see while the run goes on. Throws OutputError.
+  /// Adds a line that is not passed on: details that are rarely needed during the run. Throws OutputError.
   void keep(std::string_view text);
   /// Adds a status line with the present date and time. Throws OutputError.
   void status(std::int64_t cycle, Real t, Real dt, std::string_view what);

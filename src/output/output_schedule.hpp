@@ -10,15 +10,15 @@
 namespace courant {
 
 /// When an output is due. A state due at t_out is written at the cycle with t <= t_out < t + dt, as LS-DYNA
-/// does; several due times within one step give one state. Times that differ by round-off are one.
+/// does; several due times within one step give one state. Times that differ by round-off count as one.
 class OutputSchedule {
  public:
-  /// The due time behind a due time; infinity: none. [T]
+  /// The due time after a due time; infinity: none. [T]
   using After = std::function<Real(Real due)>;
 
   /// Due at k interval, first at t = 0. interval [T]; 0 or less: never due.
   OutputSchedule(Real interval = 0) : interval_(interval) {}
-  /// Due at `first`, then at what `after` tells.
+  /// Due at `first`, then at the times of `after`.
   OutputSchedule(Real first, After after) : first_(first), next_(first), after_(std::move(after)) {}
 
   bool is_wanted() const { return interval_ > 0 || after_; }
@@ -33,7 +33,7 @@ class OutputSchedule {
     return true;
   }
 
-  /// For a restart at time t: what was due before t is taken as written.
+  /// For a restart at time t: outputs due before t count as written.
   void skip_to(Real t) {
     if (!is_wanted()) return;
     if (after_)
@@ -47,7 +47,7 @@ class OutputSchedule {
   Real interval() const { return interval_; }                    ///< 0: by `after`, or never due [T]
 
  private:
-  /// A sum of a million steps may be off by this much of itself.
+  /// Relative error of a sum of a million steps.
   static Real before(Real t) { return t - 1e-10 * std::abs(t); }
   void go_on() {
     if (!after_) {

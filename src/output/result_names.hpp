@@ -1,5 +1,5 @@
 #pragma once
-// The names of all files that a run writes: what is not listed here cannot be written.
+// The names of all files that a run writes; other files cannot be written.
 #include <filesystem>
 #include <string>
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the histories print at one time. The time loop fills it; the writers only format.
+// The data of the histories at one time. The time loop fills it; the writers only format.
 #include <array>
 #include <cstdint>
 #include <string>
@@ -35,7 +35,7 @@ struct ParticleSample {
   std::int64_t neighbours = 0;
 };
 
-/// A node of *DATABASE_HISTORY_NODE: of shells, an SPH particle, or one that nothing uses.
+/// A node of *DATABASE_HISTORY_NODE: of shells, an SPH particle, or an unused one.
 struct NodeSample {
   Id id = 0;
   Vec displacement = Vec::Zero(), x = Vec::Zero();   ///< [L]
@@ -45,7 +45,7 @@ struct NodeSample {
   Vec omega = Vec::Zero(), angular_a = Vec::Zero();  ///< [1/T], [1/T2]
 };
 
-/// What a gauge measures: the columns of its file and datasets behind the time.
+/// The measurements of a gauge: the columns of its file and datasets behind the time.
 struct GaugeLayout {
   struct Column {
     std::string name;

@@ -12,38 +12,38 @@
 
 namespace courant {
 
-/// Beyond what a run is no longer sound. Shares: of energies, of particles, of the sound speed, of RO.
+/// Limits beyond which a run is not sound. Fractions: of energies, of particles, of the sound speed, of RO.
 struct VerdictLimits {
   Real residual_doubtful = 0.01, residual_broken = 0.1;  ///< of EnergyLedger::scale
   Real leaks_doubtful = 0, leaks_broken = 0.001;         ///< of the particles of the model
   Real hourglass_doubtful = 0.1, hourglass_broken = std::numeric_limits<Real>::infinity();  ///< of internal
   Real mach_doubtful = 0.2, density_doubtful = 0.1;                                         ///< of liquids
-  bool given = false;  ///< by the deck: then the summary tells them
+  bool given = false;  ///< by the deck: then the summary lists them
 };
 
-/// What a run came to, for scripts: the content of summary.yaml.
+/// Results of a run, for scripts: the content of summary.yaml.
 struct Summary {
   struct PassTime {
     std::string name;
     double seconds = 0;  ///< wall time in this pass over the run
     std::int64_t calls = 0;
   };
-  std::string title;                    ///< of the deck
-  std::string deck;                     ///< path of the deck
-  std::string mass, length, time_unit;  ///< units that the numbers of the deck look like; empty: no guess
-  std::string termination;              ///< "normal", "error", "interrupted", ...
-  std::string reason;                   ///< in words
-  std::string advice;                   ///< what to change, where the run stopped in error; may be empty
-  std::string verdict;                  ///< "sound", "doubtful", "broken"; empty: not judged yet
-  std::vector<std::string> verdict_reasons;  ///< what speaks against it
+  std::string title;                         ///< of the deck
+  std::string deck;                          ///< path of the deck
+  std::string mass, length, time_unit;       ///< probable units of the deck; empty: unknown
+  std::string termination;                   ///< "normal", "error", "interrupted", ...
+  std::string reason;                        ///< in words
+  std::string advice;                        ///< what to change, where the run stopped in error; may be empty
+  std::string verdict;                       ///< "sound", "doubtful", "broken"; empty: not judged yet
+  std::vector<std::string> verdict_reasons;  ///< reasons of the verdict
   VerdictLimits limits;
   Real time = 0;  ///< time reached [T]
   std::int64_t steps = 0;
-  int restarts = 0;  ///< parts that the run was made in, but one
-  /// What changed at those restarts, so that results may differ from those of a run in one part.
+  int restarts = 0;  ///< number of restarts
+  /// Changes at those restarts, by which results may differ from those of a run without restarts.
   std::vector<std::string> restart_notes;
-  std::vector<std::string> notes;  ///< what a reader of the results should know, and is no fault
-  std::string restart_file;        ///< the latest whole one that was written; empty: none
+  std::vector<std::string> notes;  ///< information for readers of the results, not faults
+  std::string restart_file;        ///< the latest complete one; empty: none
   double wall_seconds = 0, cpu_seconds = 0;
   double read_seconds = 0;            ///< wall time for deck and set-up, before the run
   double writer_cpu_seconds = 0;      ///< part of cpu_seconds: writing results, beside the computation
@@ -60,7 +60,7 @@ struct Summary {
   Real max_penetration = 0;  ///< [L]
   Counters counters;
   std::map<std::string, Real> maxima;
-  Ranges ranges;  ///< of speeds and densities, seen at the looks of the guard
+  Ranges ranges;  ///< of speeds and densities, found by the checks of the guard
   std::vector<std::string> warnings;
   std::vector<PassTime> passes;  ///< of deck, set-up and run: they add up to read_seconds + wall_seconds
   struct Output {
@@ -71,17 +71,17 @@ struct Summary {
   };
   Output output;
 
-  /// CPU time, and time elapsed, which others that use the machine make longer; 0 if no step was taken.
+  /// CPU time, and elapsed time, which includes delays by other programs; 0 if no step was taken.
   double ns_per_particle_step() const;
   double elapsed_ns_per_particle_step() const;
   double ns_per_element_step() const;
   double elapsed_ns_per_element_step() const;
-  /// Total over initial energy plus external work; where that is next to nothing (a fall from the height that
-  /// potential energy counts from), 1 plus the error of the balance.
+  /// Total over initial energy plus external work; where that is almost 0 (a fall from the origin of
+  /// potential energy), 1 plus the error of the balance.
   Real energy_ratio() const;
 };
 
-/// Writes the summary as YAML, whole or not at all. Throws OutputError.
+/// Writes the summary as YAML, completely or not at all. Throws OutputError.
 void write_summary(const std::filesystem::path& file, const Summary& summary);
 
 }  // namespace courant

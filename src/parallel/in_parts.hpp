@@ -7,8 +7,8 @@
 
 namespace courant {
 
-/// Where the threads of a team wait for each other. They look for some 20 microseconds, which is how long a
-/// thread that sleeps takes to wake up, before they let others run.
+/// A barrier of the threads of a team. They spin for some 20 microseconds, which is how long a thread that
+/// sleeps takes to wake up, before they let others run.
 class Meeting {
  public:
   /// For all `team` threads, behind what they have written before.

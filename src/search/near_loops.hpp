@@ -29,7 +29,7 @@ struct NearLoops {
   /// Adds those of particles [begin, end) that are within support max(h_i, h_j) of any particle i of the
   /// group to `within`, those that are but within support max(h_i, h_j) + skin to `beyond`.
   void (*find)(const NearQuery& query, Index begin, Index end, NearFound& found);
-  /// The cells of particles [begin, end), by their place in the snake (see CellGrid): cell[0] is that of
+  /// The cells of particles [begin, end), by their position in the snake (see CellGrid): cell[0] is that of
   /// particle `begin`. Points outside belong to the cell at the border.
   void (*cells)(const CellFrame& frame, const Real* const x[3], Index begin, Index end, Index* cell);
 };

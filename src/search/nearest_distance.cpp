@@ -202,7 +202,7 @@ std::vector<Real> nearest_distance(const Real* x, const Real* y, const Real* z, 
   auto lists = short_lists(cloud, size);
   std::ptrdiff_t left = n;
   for (bool again = false; left > few; again = true) {
-    if (again) {  // who had nobody in sight looks again, with larger cubes
+    if (again) {  // particles without a neighbour search again, with larger cubes
       size *= 4;
       lists = nullptr;
       lists = std::make_unique<Lists>(cloud, size);

@@ -41,7 +41,7 @@ class Neighbours {
   /// move d in a step. `weight`: what rebuilding costs against looking at entries, by measurement.
   void adapt_skin(Real least, Real most, Real weight);
 
-  /// Smoothing lengths never change, so nobody need look whether they have grown.
+  /// Smoothing lengths never change, so their growth need not be checked.
   void keep_h() { h_changes_ = false; }
 
   /// From now on the lists also hold these ghosts, as entities behind those added before.
@@ -55,13 +55,13 @@ class Neighbours {
   /// bits do not depend on when they woke. Call before the first refresh.
   void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet, const Field<Real>& start);
 
-  /// Sorts and rebuilds if it must. Returns true if it did; then every Refresh of the world was told.
-  /// Throws RunError naming a particle whose place is no longer a finite number.
+  /// Sorts and rebuilds if necessary, then calls every Refresh of the world. Returns whether it did. Throws
+  /// RunError naming a particle whose position is not a finite number.
   bool refresh(World& world, const Clock& clock);
   void force_refresh() { built_ = false; }
 
-  /// What the next rebuild depends on, with the places of the last one. Lists are not kept: `restore` makes
-  /// them anew from those places, the same entries in the same order.
+  /// The data of the next rebuild, with the positions of the last one. Lists are not kept: `restore`
+  /// rebuilds them from those positions, with the same entries in the same order.
   void keep(Archive& archive);
   /// After loading: lists and ghosts, and with them what `restartables` make of them.
   void restore(World& world, const std::vector<std::pair<std::string, Restartable*>>& restartables);
@@ -73,13 +73,13 @@ class Neighbours {
   /// particles of earlier groups where nobody needs them.
   void cut_tasks();
   const Tasks& tasks() const { return tasks_; }
-  /// Who reads whole lists must have said so before the first refresh; with_whole_lists does.
+  /// Whole lists must be requested before the first refresh; with_whole_lists does this.
   void need_whole_lists();
   bool whole() const { return whole_needed_ || !tasks_wanted_; }
   /// Shares blocks among as many threads as there are now; `refresh` does it, too.
   void share_blocks(World& world) const;
 
-  /// The particles that group `g` = particles [8 g, 8 g + 8) looks at.
+  /// The neighbours of group `g` = particles [8 g, 8 g + 8).
   std::span<const Index> of_group(Index g) const {
     expect_whole();
     return listed(g);

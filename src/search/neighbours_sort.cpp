@@ -1,4 +1,4 @@
-// How particles are sorted: who is active, in the halo or dormant, and in which cell.
+// Sorting of particles: active, in the halo or dormant, and by cell.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -124,7 +124,7 @@ void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock,
   }
 }
 
-/// Whether particles [begin, end) are active, so that nobody need ask each of them.
+/// Whether all particles [begin, end) are active, so that single ones need no test.
 bool Neighbours::all_active(const Particles& p, Index begin, Index end) const {
   const Index* state = p.state.data();
   bool other = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Cards of particles, but those that one file alone uses.
+// Cards of particles, except those that only one file uses.
 #include "keyword/deck.hpp"
 #include "model/conditions/condition_cards.hpp"
 #include "sph/boundaries/boundary_cards.hpp"

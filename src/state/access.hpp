@@ -1,5 +1,6 @@
 #pragma once
-// What a pass says it touches. Stages, waiting and the exchange of ghosts follow from it (time/schedule.hpp).
+// The accesses that a pass declares. Stages, barriers and the exchange of ghosts follow from them
+// (time/schedule.hpp).
 #include <string>
 #include <vector>
 
@@ -7,49 +8,49 @@ namespace courant {
 
 class FieldBase;
 
-/// Something that passes read and write: a field of an entity set, or numbers that a physics keeps beside
-/// fields. `set`: the name of the entity set that it belongs to; "" for numbers that belong to none.
+/// Data that passes read and write: a field of an entity set, or numbers that a pass keeps beside fields.
+/// `set`: the name of its entity set; "" for numbers of no set.
 class Resource {
  public:
   explicit Resource(std::string name, std::string set = "") : name_(std::move(name)), set_(std::move(set)) {}
   virtual ~Resource() = default;
   const std::string& name() const { return name_; }
   const std::string& set() const { return set_; }
-  /// The field that holds it now; null where none does. Not always the same one: PairVolumes takes turns.
+  /// The field that holds it now; null where none does. It may change: PairVolumes alternates between two.
   virtual const FieldBase* field() const { return nullptr; }
 
  private:
   std::string name_, set_;
 };
 
-/// The only order of passes that is given; the rest follows from accesses. Within a phase, of one resource,
-/// who writes it comes first, then who adds to it, then who revises the sum, then who reads it.
+/// The only prescribed order of passes; the rest follows from accesses. Within a phase the pass that writes a
+/// resource comes first, then those that add to it, revise the sum and read it.
 enum class Phase {
   rates,        ///< from x and v of the last motion; velocities of neighbours
   laws,         ///< density, energy and stress advance; corner forces of elements
   reductions,   ///< sums and searches once laws are known
-  forces,       ///< what needs pressures and stresses of neighbours; external forces
+  forces,       ///< forces that need pressures and stresses of neighbours; external forces
   constraints,  ///< changes of forces once all are known
   drive,        ///< after dt is chosen: velocities that are prescribed
   motion,       ///< v += a dt, x += v dt
-  relocation,   ///< places that change besides: drift, reflection
-  preparation,  ///< what the next step reads of neighbours
+  relocation,   ///< other changes of positions: drift, reflection
+  preparation,  ///< values that the next step reads of neighbours
 };
 const char* name_of(Phase phase);
 
-/// Whose values a pass looks at. What belongs to another set than the pass's own is always `others`.
+/// The entities whose values a pass reads. Values of another set than that of the pass are always `others`.
 enum class Reach {
-  own,     ///< of the entities of the block that it works on
+  own,     ///< of the entities of its block
   others,  ///< of neighbours, corners, elements of a node, ...
 };
 
 struct Access {
   enum class Mode {
-    reads_before,  ///< as it was before this phase; who changes it in this phase comes later
-    writes,        ///< all of it, whatever it was
+    reads_before,  ///< as it was before this phase; passes that change it in this phase come later
+    writes,        ///< all of it, independent of its old value
     updates,       ///< adds to it, or changes some entities of it
-    revises,       ///< changes it once all have added
-    reads,         ///< once all in this phase have changed it
+    revises,       ///< changes it after all additions
+    reads,         ///< after all changes in this phase
   };
   enum class When { start, block, finish };  ///< in which function of the pass
   const Resource* what = nullptr;
@@ -69,12 +70,12 @@ class Accesses {
   Accesses& writes(const Resource& r) { return add(r, Access::Mode::writes, Reach::own); }
   Accesses& updates(const Resource& r) { return add(r, Access::Mode::updates, Reach::own); }
   Accesses& revises(const Resource& r) { return add(r, Access::Mode::revises, Reach::own); }
-  /// What follows happens in BlockPass::start, `finish` or `block`.
+  /// The following accesses are made in BlockPass::start, `finish` or `block`.
   Accesses& in_start() { return in(Access::When::start); }
   Accesses& in_finish() { return in(Access::When::finish); }
   Accesses& in_block() { return in(Access::When::block); }
   const std::vector<Access>& all() const { return all_; }
-  /// Without those of a resource: for the test that each declaration is needed.
+  /// Removes those of a resource, for the test that each declaration is needed.
   void drop(const std::string& resource);
 
  private:
@@ -91,15 +92,15 @@ class Accesses {
 };
 
 #ifdef COURANT_CHECK_ACCESSES
-/// Builds that check declarations: called wherever a resource's values are asked for. Where the pass at work
-/// has not declared it, the run stops with a std::logic_error once the pass is done.
+/// In builds that check declarations: called at each access to the values of a resource. If the running pass
+/// has not declared it, the run stops with a std::logic_error after the pass.
 void note_access(const Resource& resource);
 #else
 inline void note_access(const Resource&) {}
 #endif
 
-/// While it lives, nothing is held against the pass at work: what only the message of a fault reads (ids,
-/// places) is not declared, so that no other pass waits for it.
+/// During its lifetime accesses are not checked: values read only for an error message (ids, positions) are
+/// not declared, so that no other pass waits for them.
 class ReadsForMessage {
  public:
 #ifdef COURANT_CHECK_ACCESSES

@@ -1,5 +1,5 @@
 #pragma once
-// What elements leave for their nodes, summed up block by block.
+// Forces of elements on their nodes, summed by block.
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -9,12 +9,12 @@
 
 namespace courant {
 
-/// Sums of what the elements of each block have for a node. Elements of a block share nodes: where
-/// neighbours stand one behind the other there are about as many sums as elements, a fourth of the corners.
-/// Places are those of the nodes of the first block, ascending, then those of the second, ...
+/// Sums over the elements of each block of their contributions to a node. Elements of a block share nodes:
+/// where neighbours are consecutive there are about as many sums as elements, a fourth of the corners.
+/// Positions of sums: the nodes of the first block, ascending, then those of the second, ...
 class BlockSums {
  public:
-  /// `node`: of the corners of elements. `set`: what the fields belong to.
+  /// `node`: of the corners of elements. `set`: name of the set of the fields.
   BlockSums(const Field<Index>& node, Index elements, const std::string& set);
   BlockSums(const BlockSums&) = delete;
 
@@ -26,7 +26,7 @@ class BlockSums {
   Field<Real> force, moment;                                  ///< on nodes [ML/T2], [ML2/T2]
 
  private:
-  std::vector<Index> first_;                       ///< place of each block, and the end
+  std::vector<Index> first_;                       ///< start of each block, and the end
   std::vector<Index> nodes_;                       ///< of each position
   std::vector<std::vector<std::uint16_t>> place_;  ///< of each element in its block, by corner
 };

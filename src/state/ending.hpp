@@ -6,10 +6,10 @@
 
 namespace courant {
 
-/// A criterion that ends a run before its end time, as a run that is complete.
+/// A criterion that ends a run before its end time; the run counts as complete.
 struct Ending : virtual Pass {
-  /// Why the run ends, after a step: positions are those at clock.t. It keeps no state, so that a restart
-  /// finds the same end.
+  /// The reason why the run ends after a step, with positions at clock.t. It has no state, so a restart finds
+  /// the same end.
   virtual std::optional<std::string> ended(const World& world, const Clock& clock) const = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What exists in a run: SPH particles, shell nodes, contact segments, and the bodies that own rigid nodes.
+// The entities of a run: SPH particles, shell nodes, contact segments, and the bodies that own rigid nodes.
 #include <array>
 
 #include "state/block_sums.hpp"
@@ -37,8 +37,8 @@ struct Particles {
 
   Index active = 0;       ///< particles [0, active) are active
   Index moving = 0;       ///< particles [active, moving) are the halo
-  Real dormant_time = 0;  ///< when dormant particles were at x; since then they move with v [T]
-  /// Where particle i is at time t, at which the moving ones are at x. [L]
+  Real dormant_time = 0;  ///< time at which dormant particles were at x; since then they move with v [T]
+  /// Position of particle i at time t, the time of x of the moving ones. [L]
   Vec place(Index i, Real t) const {
     return i < moving ? x.vec(i) : Vec(x.vec(i) + v.vec(i) * (t - dormant_time));
   }
@@ -48,13 +48,13 @@ struct Particles {
 enum ParticleState : Index {
   particle_outside = 0,      ///< outside the box: keeps its state, moves with constant velocity
   particle_active = 1,       ///< inside the box
-  particle_deactivated = 2,  ///< switched off for good (MAXV)
+  particle_deactivated = 2,  ///< switched off permanently (MAXV)
   particle_waiting = 3,      ///< made for an inlet and not yet through its plane: like outside
 };
 
-/// Nodes of shells and solids. Contact and elements add forces to f. Nodes of rigid bodies go where these go;
-/// others move by their forces. Forces on walls that are held move nothing: they are there only once somebody
-/// asks for them (Contact::show_forces).
+/// Nodes of shells and solids. Contact and elements add forces to f. Nodes of rigid bodies follow these;
+/// others move by their forces. Forces on fixed walls move nothing: they are computed on request
+/// (Contact::show_forces).
 struct Nodes {
   FieldSet fields{"nodes"};
   Field<Real>& x = fields.add<Real>({.name = "position", .dimension = "L", .components = 3});
@@ -73,8 +73,8 @@ struct Nodes {
   Index size() const { return fields.size(); }
 };
 
-/// Faces that contact can act on: shells, and the skin of solids. A triangle repeats its third node: node[2]
-/// == node[3].
+/// Faces on which contact acts: shells, and exterior faces of solids. A triangle repeats its third node:
+/// node[2] == node[3].
 struct Segments {
   FieldSet fields{"segments"};
   Field<Index>& node0 = fields.add<Index>({.name = "node0", .dimension = "-"});
@@ -102,7 +102,7 @@ struct Segments {
 };
 
 /// Elements of one kind and one part, whose forces on their nodes are gathered by a pass over the nodes:
-/// those on corners, or sums by block. Those that have mass alone (`pushes` is false) leave none.
+/// those on corners, or sums by block. Groups with mass only (`pushes` is false) have none.
 struct ElementGroup {
   enum class Leaves { corners, sums, nothing };
   ElementGroup(FieldSet& set, Index part_index, int corners, Leaves leaves = Leaves::corners)
@@ -131,17 +131,18 @@ struct ElementGroup {
   Index part;        ///< index into the model's parts
   bool pushes;       ///< false: its elements have mass and no forces
   Index layup = -1;  ///< shells with layers of their own: index into the model's layups
-  /// Component 3 c + k: on corner c in direction k. Null: what they leave is `sums`, and nobody else asks.
+  /// Component 3 c + k: on corner c in direction k. Null: the forces are in `sums`, and no other pass reads
+  /// them.
   Field<Real>* corner_force = nullptr;
   Field<Real>* corner_moment =
       nullptr;                      ///< on rotations of the corners, as corner_force; null: none, or sums
-  std::unique_ptr<BlockSums> sums;  ///< null: what they leave is corner_force and corner_moment
+  std::unique_ptr<BlockSums> sums;  ///< null: the forces are corner_force and corner_moment
   bool repeats_nodes = false;       ///< some element has a node at several corners
   Field<Index>* segment = nullptr;  ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
-  /// Of solids: the corners of a hexahedron, or of what becomes of one (pentahedra of 6 corners, tetrahedra
-  /// of 4 or 10), with the same ends of edges.
+  /// Of solids: the corners of a hexahedron, or of a shape reduced to one (pentahedra of 6 corners,
+  /// tetrahedra of 4 or 10), with the same ends of edges.
   std::array<int, 8> hexahedron() const {
     if (corners() == 8) return {0, 1, 2, 3, 4, 5, 6, 7};
     if (corners() == 6) return {0, 1, 2, 3, 4, 4, 5, 5};
@@ -153,8 +154,8 @@ struct ElementGroup {
       if (node.data(b)[e] == node.data(corner)[e]) return false;
     return true;
   }
-  /// Of the mass of an element, what a corner gets: `shares`, or the same for all nodes, however many corners
-  /// they are. [-]
+  /// Fraction of the mass of an element at a corner: `shares`, or equal for all nodes, independent of their
+  /// number of corners. [-]
   Real share(Index e, int corner) const {
     if (!shares.empty()) return shares[static_cast<std::size_t>(corner)];
     if (!repeats_nodes) return Real(1) / corners();
@@ -164,7 +165,7 @@ struct ElementGroup {
     return Real(1) / (different * same);
   }
 
-  /// Of the mass of an element, by corner; empty: equal. [-]
+  /// Fractions of the mass of an element, by corner; empty: equal. [-]
   std::vector<Real> shares{};
 };
 

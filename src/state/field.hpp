@@ -1,6 +1,6 @@
 #pragma once
 // Named structure-of-arrays fields. A field is registered once; output, restart, sorting and the exchange
-// with ghost particles walk the registry, so a new field appears there without any edit.
+// with ghost particles iterate over the registry, so a new field appears there without any edit.
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -35,10 +35,10 @@ class FieldBase : public Resource {
   const FieldInfo& info() const { return info_; }
   const FieldBase* field() const override { return this; }
   virtual void resize(Index n) = 0;
-  /// Room for `ghosts` entities behind the n there are; theirs are not set.
+  /// Allocates `ghosts` entities behind the n existing ones; their values are not set.
   virtual void make_room(Index n, Index ghosts) = 0;
-  /// As many entities for the spare, a field of the same type with one component, as a component of this has;
-  /// theirs are not set.
+  /// Resizes the spare, a field of the same type with one component, to the number of entities of this field;
+  /// values are not set.
   virtual void fit(FieldBase& spare) const = 0;
   /// Entities from[begin], ..., from[end - 1] of a component become [begin, end) of the spare.
   virtual void gather(int component, const Index* from, Index begin, Index end, FieldBase& spare) const = 0;
@@ -169,14 +169,14 @@ class FieldSet {
     size_ = n;
     for (auto& f : fields_) f->resize(n);
   }
-  /// Room behind the entities for `count` ghosts in all fields that are exchanged. Arrays may move.
+  /// Allocates `count` ghosts behind the entities in all fields that are exchanged. Arrays may move in
+  /// memory.
   void make_room_for_ghosts(Index count) {
     for (auto& f : fields_)
       if (f->info().exchange) f->make_room(size_, count);
   }
-  /// New entity i is old entity old_of_new[i], for as many as are given; those behind stay. Each thread
-  /// sorts, and then has in its cache, the entities that it works on afterwards. Arrays change their position
-  /// in memory.
+  /// New entity i is old entity old_of_new[i], for as many as are given; the rest are unchanged. Each thread
+  /// sorts the entities that it processes afterwards, so they are in its cache. Arrays move in memory.
   void permute(std::span<const Index> old_of_new) {
     const Index n = static_cast<Index>(old_of_new.size());
     for (const auto& field : fields_) {
@@ -193,7 +193,7 @@ class FieldSet {
       }
     }
   }
-  /// What one more entity takes: its fields and those for sorting.
+  /// Memory of one more entity: its fields and those for sorting.
   std::size_t bytes_per_entity() const {
     std::size_t bytes = 0;
     for (const auto& f : fields_) bytes += f->bytes_per_entity();

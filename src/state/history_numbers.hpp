@@ -50,12 +50,12 @@ struct HistoryNumbers {
   }
 };
 
-/// Arrays with one value for each entity of a list, which outlives the call. `Of` below: a member or a
+/// Arrays with one value for each entity of a list, which must outlive the call. `Of` below: a member or a
 /// function of an entity.
 template <class List>
 class HistoryRows {
  public:
-  /// `group`: of history.h5, which gets a group for each entity; "": binout alone. `ids`: name of the ids in
+  /// `group`: of history.h5, which gets a group for each entity; "": binout only. `ids`: name of the ids in
   /// `metadata`. An empty list adds no folder.
   template <class Of>
   HistoryRows(HistoryNumbers& to, std::string folder, const List& list, const Of& id, std::string group = "",
@@ -82,7 +82,7 @@ class HistoryRows {
     for (const auto& one : list_) to_.titles.emplace_back(path(row++), std::invoke(of, one));
     return *this;
   }
-  /// `dimension`: in M, L, T, where history.h5 gets it under the same name; "": binout alone.
+  /// `dimension`: in M, L, T, where history.h5 gets it under the same name; "": binout only.
   template <class Of>
   HistoryRows& real(const std::string& name, const Of& of, const char* dimension = "") {
     add(name, [&](const auto& one) -> Real { return std::invoke(of, one); });

@@ -1,5 +1,5 @@
 #pragma once
-// Loops over single particles that many steps go through, compiled once for each instruction set. Arrays are
+// Loops over single particles, executed in every step and compiled once for each instruction set. Arrays are
 // those of fields; a loop works on entries [begin, end).
 #include "base/real.hpp"
 
@@ -16,18 +16,18 @@ struct ParticleLoops {
   /// Least h/(c + |v|); not a number where one of them is not. [T]
   Real (*least_crossing)(const Real* h, const Real* c, const Real* const v[3], Index begin, Index end);
 
-  /// How far particles are from where they were: the largest square, and whether this and what their support
-  /// has grown by make less than `reach` for each.
+  /// Displacement of particles since earlier positions: the largest square, and whether this and the growth
+  /// of their support stay below `reach` for each.
   struct Moved {
     Real most2;
     bool within;  ///< false also where something is not a number
   };
   struct Places {
-    const Real *x[3], *h, *x_before[3], *h_before;  ///< x_before[2], h_before: null where they do not change
-    Real support;                                   ///< how far particles reach, of h
+    const Real *x[3], *h, *x_before[3], *h_before;  ///< x_before[2], h_before: null where they are constant
+    Real support;                                   ///< support radius of particles, in h
   };
   Moved (*moved)(const Places& places, Real reach, Index begin, Index end);
-  /// How many are in a box, its faces included.
+  /// Number of particles in a box, its faces included.
   Index (*inside)(const Real low[3], const Real high[3], const Real* const x[3], Index begin, Index end);
 
   /// The box around particles, their extreme h, the sum of m/rho, each rounded to a multiple of `unit` so
@@ -46,8 +46,8 @@ struct ParticleLoops {
   /// mu = rho/rho0 - 1 and half the change of the relative volume, by entry - begin.
   void (*compress)(const Real* drhodt, Real dt, Real rho0, Real* rho, Real* mu, Real* half_dv, Index begin,
                    Index end);
-  /// What follows from the law's pressure A(mu) and slope dA/dmu, by entry - begin: p not below pc, the work
-  /// that E counts, c.
+  /// Values from the pressure A(mu) of the law and its slope dA/dmu, by entry - begin: p, at least pc; the
+  /// work that enters E; c.
   struct Law {
     const Real *A, *dA, *half_dv;
     Real rho0, pc;
@@ -63,7 +63,7 @@ struct ParticleLoops {
   Range (*depths)(const Real normal[3], const Real point[3], const Real* const x[3], Index begin, Index end);
 };
 
-/// For the machine the program runs on.
+/// For the present processor.
 ParticleLoops particle_loops();
 
 }  // namespace courant

@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of pass a step is made of.
+// The kinds of pass in a step.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -24,31 +24,29 @@ struct Clock {
 struct World;
 struct EnergyLedger;
 
-/// Every kind of pass has a name for the list that `courant run` prints and for the timing table. One object
-/// may be several kinds at once.
+/// Every pass has a name for the list that `courant run` prints and for the timing table. One object may be
+/// of several kinds.
 struct Pass {
   virtual ~Pass() = default;
   virtual std::string name() const = 0;
 };
 
-/// A pass whose work threads share by blocks of an entity set. Stages are made from what passes declare: in a
-/// stage every block goes through all passes in order, and threads wait for each other only where a pass
-/// reads of others what an earlier one changed. `block` changes only what belongs to entities [begin, end),
-/// or to the task of its blocks where World::shares holds whole tasks. A thread takes its blocks in
-/// ascending order.
+/// A pass divided among threads by blocks of an entity set. Stages follow from the declarations of passes: in
+/// a stage every block goes through all passes in order, and threads wait only where a pass reads of others a
+/// value that an earlier pass changed. `block` changes only values of entities [begin, end), or of the task
+/// of its blocks where World::shares holds whole tasks. A thread processes its blocks in ascending order.
 struct BlockPass : virtual Pass {
   virtual Phase phase() const = 0;
-  /// The set whose blocks it works on; active particles (from Phase::drive on: moving ones) unless it says
-  /// otherwise.
+  /// The set whose blocks it processes; by default active particles (from Phase::drive on: moving ones).
   virtual const FieldSet& over(const World& world) const;
-  /// What it reads and changes. Called once, when the list of passes is complete.
+  /// Declares what it reads and changes. Called once, when the list of passes is complete.
   virtual void declare(const World& world, Accesses& accesses) const = 0;
   /// Before any block of the stage, on one thread.
   virtual void start(World& /*world*/, const Clock& /*clock*/) {}
   /// `begin` is a multiple of block_size.
   virtual void block(World& world, const Clock& clock, Index begin, Index end) = 0;
-  /// After all blocks of all passes of the stage, on one thread. What blocks summed up is added here, in the
-  /// order of blocks, so that it has the same bits on any number of threads.
+  /// After all blocks of all passes of the stage, on one thread. Sums of blocks are added here, in the order
+  /// of blocks, so they have the same bits on any number of threads.
   virtual void finish(World& /*world*/, const Clock& /*clock*/) {}
 };
 
@@ -61,8 +59,8 @@ using Rate = PassOf<Phase::rates>;
 /// Advances density, energy or stress over dt_old with the rates.
 using Material = PassOf<Phase::laws>;
 using Reduction = PassOf<Phase::reductions>;
-/// Adds to forces. Who adds to nodes.f or segments.contact_force (in `finish`) first takes back in `start`
-/// what it added a step ago.
+/// Adds to forces. A pass that adds to nodes.f or segments.contact_force (in `finish`) first removes in
+/// `start` its contribution of the last step.
 using Force = PassOf<Phase::forces>;
 /// Changes forces (or accelerations) after all are known: SPC, rigid bodies.
 using Constraint = PassOf<Phase::constraints>;
@@ -71,16 +69,16 @@ using Motion = PassOf<Phase::motion>;
 using Relocation = PassOf<Phase::relocation>;
 using Preparation = PassOf<Phase::preparation>;
 
-/// Brings copies of entities elsewhere (ghosts behind planes) up to date, between stages.
+/// Updates copies of entities (ghosts behind planes) between stages.
 struct Exchanger : virtual Pass {
   /// `fields`: those that changed and will be read of neighbours.
   virtual void exchange(World& world, std::span<const FieldBase* const> fields) = 0;
-  /// All that are exchanged: after a rebuild of the lists.
+  /// Updates all exchanged fields, after a rebuild of the lists.
   virtual void exchange_all(World& world) = 0;
 };
 
-/// Changes forces once dt is chosen, before outputs and the energy balance see them: where points would be at
-/// t + dt, and so what a wall does to them, is known only then. On one thread; its loops are shared.
+/// Changes forces once dt is chosen, before outputs and the energy balance: the positions at t + dt, and so
+/// the forces of walls, are known only then. Called on one thread; its loops run on all.
 struct Impact : virtual Pass {
   virtual void strike(World& world, const Clock& clock) = 0;
 };
@@ -88,16 +86,15 @@ struct Impact : virtual Pass {
 struct TimeLimit : virtual Pass {
   struct Limit {
     Real dt;          ///< [T], infinity where there is none
-    std::string who;  ///< what set it: "sph particle 17 of part 1"
+    std::string who;  ///< its source: "sph particle 17 of part 1"
   };
   virtual Limit limit(const World& world, const Clock& clock) = 0;
-  /// Whether what it limits would be pumped by steps that go back and forth: elements, springs, contact of
-  /// nodes. Not fluids, turning bodies and joints, whose limits lie far below what would make them unstable,
-  /// and change all the time.
+  /// Whether an oscillating step would pump energy into it: elements, springs, contact of nodes. Not fluids,
+  /// rotating bodies and joints, whose limits are far below those of instability and change in every step.
   virtual bool rings() const { return true; }
 };
-/// Keeps what depends on the order or the neighbourhood of particles. Called after particles were sorted and
-/// their lists built: particle i was at old_of_new[i] before.
+/// Updates data that depend on the order or the neighbourhood of particles. Called after particles were
+/// sorted and their lists built: particle i was at old_of_new[i] before.
 struct Refresh : virtual Pass {
   virtual void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) = 0;
 };
@@ -105,13 +102,13 @@ struct Refresh : virtual Pass {
 /// f . (v^{n-1/2} + v^{n+1/2})/2 dt_mean, which makes the change of kinetic energy exact.
 struct EnergyTerm : virtual Pass {
   virtual void record(World& world, const Clock& clock, EnergyLedger& ledger) = 0;
-  /// Adds what holds at t^n (not what accumulates) to kinetic, internal, potential, contact, hourglass,
-  /// bulk_viscosity, which are zero before. Called only when somebody wants to know.
+  /// Adds the energies at t^n (not those that accumulate) to kinetic, internal, potential, contact,
+  /// hourglass, bulk_viscosity, which are zero before. Called on request only.
   virtual void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const = 0;
 };
 
-/// The passes of a world. The order of adding counts only where accesses leave it open: among passes of one
-/// phase that add to the same field, and for the ledger, the limits and what follows a rebuild.
+/// The passes of a world. The order of adding matters only where accesses do not define one: among passes of
+/// one phase that add to the same field, and for the ledger, the limits and the refresh after a rebuild.
 class PassList {
  public:
   /// Returns the pass. Throws std::logic_error where it is in the list already.
@@ -134,7 +131,7 @@ class PassList {
       if (auto* role = dynamic_cast<Role*>(pass.get())) out.push_back(role);
     return out;
   }
-  /// The block passes of a phase, in the order that their accesses ask for. Throws std::logic_error where
+  /// The block passes of a phase, in the order required by their accesses. Throws std::logic_error where
   /// accesses contradict each other.
   std::vector<BlockPass*> in_phase(Phase phase, const World& world) const;
   std::size_t size() const { return passes_.size(); }

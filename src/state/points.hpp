@@ -1,5 +1,5 @@
 #pragma once
-// What moves by v += a dt, x += v dt: particles, nodes, and whatever else has these fields. Loads,
+// Entities that move by v += a dt, x += v dt: particles, nodes, and others with these fields. Loads,
 // constraints and motion are written once, for points.
 #include "state/entities.hpp"
 #include "state/shared_fields.hpp"
@@ -11,8 +11,8 @@ struct Points {
   Field<Real>*x, *v, *f;  ///< [L], [L/T], [ML/T2]
   const Field<Real>* m;   ///< [M]
   const Field<Id>* id;
-  const Field<Index>* part;    ///< index into the model's parts; null: they belong to none
-  const Field<Index>* follow;  ///< != 0 where something else moves the point (a rigid body); null: nowhere
+  const Field<Index>* part;    ///< index into the model's parts; null: of no part
+  const Field<Index>* follow;  ///< != 0 where another pass moves the point (a rigid body); null: nowhere
 
   bool turns = false;  ///< these are rotations of the points: angles, angular velocities, moments
 

@@ -1,29 +1,29 @@
 #pragma once
-// How far the state of the particles went during a run.
+// Extreme states of the particles during a run.
 #include <vector>
 
 #include "base/real.hpp"
 
 namespace courant {
 
-/// A largest or smallest value, and whose it was.
+/// A largest or smallest value, with its particle and time.
 struct Extreme {
   Real value = 0;
   Id particle = 0;
   Real t = 0;  ///< [T]
 };
 
-/// What was seen of one part of particles.
+/// Extremes of one part of particles.
 struct PartRange {
   Id part = 0;
   Real rho0 = 1;         ///< reference density RO [M/L3]
   Real c0 = 0;           ///< sound speed at the start [L/T]
-  bool liquid = true;    ///< holds pressure without heat, so that it should hardly change its density
+  bool liquid = true;    ///< bears pressure without heat, so its density should be nearly constant
   bool seen = false;     ///< it had an active particle
   Extreme speed;         ///< largest [L/T]
   Extreme density_low;   ///< lowest rho/rho0 [-]
   Extreme density_high;  ///< highest rho/rho0 [-]
 };
-using Ranges = std::vector<PartRange>;  ///< by part index of the model; parts without particles are not seen
+using Ranges = std::vector<PartRange>;  ///< by part index of the model; `seen` is false without particles
 
 }  // namespace courant

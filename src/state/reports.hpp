@@ -1,5 +1,5 @@
 #pragma once
-// What passes report of themselves for the histories, on request.
+// Values that passes report for the histories, on request.
 #include <functional>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Force by which a boundary condition acts on what it drives or holds, at t^n.
+/// Force of a boundary condition on the driven or fixed point or body, at t^n.
 struct BoundaryForce {
   enum class Kind {
     driven_point,     ///< *BOUNDARY_PRESCRIBED_MOTION_NODE, _SET
@@ -30,13 +30,13 @@ struct BoundaryForceReporter {
                              std::vector<BoundaryForce>& out) const = 0;
 };
 
-/// Sums over what belongs to a part.
+/// Sums over a part.
 struct PartSums {
   Real mass = 0;                                  ///< [M]
   Real internal = 0, kinetic = 0, hourglass = 0;  ///< [ML2/T2]
   Vec momentum = Vec::Zero();                     ///< [ML/T]
   Real added_mass = 0;                            ///< by mass scaling, part of `mass` [M]
-  /// Of elements that were deleted, as they had it then; not in the sums above. [ML2/T2]
+  /// Of deleted elements, at the time of deletion; not in the sums above. [ML2/T2]
   Real eroded_internal = 0, eroded_hourglass = 0;
 };
 /// A pass over elements of parts.
@@ -55,11 +55,11 @@ struct ElementFailure {
 /// A pass that deletes elements.
 struct FailureReporter {
   virtual ~FailureReporter() = default;
-  /// Those that failed at t^n, in the order of groups and elements.
+  /// Elements that failed at t^n, in the order of groups and elements.
   virtual const std::vector<ElementFailure>& failures() const = 0;
 };
 
-/// A pass that pushes particles off walls besides contact.
+/// A pass other than contact that exerts forces between particles and walls.
 struct WallForceReporter {
   virtual ~WallForceReporter() = default;
   /// Force on all particles at t^n. Its number is 0.
@@ -68,13 +68,13 @@ struct WallForceReporter {
   virtual void show_forces(World& world) = 0;
 };
 
-/// A force of contact, or of a wall that supports particles, where it acts at t^n.
+/// A force of contact, or of a supporting wall, with its point of action at t^n.
 struct PointForce {
-  Index segment = -1;                            ///< on which it acts; -1: on a node
+  Index segment = -1;                            ///< segment that gets it; -1: a node
   Index node = -1;                               ///< of World::nodes
   Vec point = Vec::Zero(), force = Vec::Zero();  ///< [L], [ML/T2]
 };
-/// A pass that acts on faces and nodes, moving or held.
+/// A pass with forces on faces and nodes, moving or fixed.
 struct PointForceReporter {
   virtual ~PointForceReporter() = default;
   virtual void report_point_forces(const World& world,
@@ -86,11 +86,11 @@ struct InterfaceReporter {
   virtual ~InterfaceReporter() = default;
   /// At t^n.
   virtual InterfaceForce report() const = 0;
-  /// Whether it has pushed anything so far.
+  /// Whether it has exerted a force so far.
   virtual bool has_acted() const { return true; }
 };
 
-/// A pass with fields that are only written: filled when somebody is about to.
+/// A pass with fields for output only, filled before each output.
 struct FieldFiller {
   virtual ~FieldFiller() = default;
   virtual void fill_fields(World& world) = 0;
@@ -100,7 +100,7 @@ struct FieldFiller {
 struct RigidWallForce {
   Id id = 0;
   std::string title;
-  Real normal = 0;            ///< along the normal, with which all points push the wall: > 0 [ML/T2]
+  Real normal = 0;            ///< of all points on the wall along its normal: > 0 [ML/T2]
   Vec force = Vec::Zero();    ///< on the wall, friction included [ML/T2]
   Vec impulse = Vec::Zero();  ///< of that so far [ML/T]
   Vec v = Vec::Zero(), displacement = Vec::Zero();  ///< of the wall [L/T], [L]
@@ -111,7 +111,7 @@ struct RigidWallReporter {
   virtual RigidWallForce report_wall() const = 0;
 };
 
-/// What a joint does to its second body at t^n, at its position there, in global axes.
+/// Force and moment of a joint on its second body at t^n, at the joint position there, in global axes.
 struct JointForce {
   Id id = 0;
   std::string title;
@@ -122,7 +122,7 @@ struct JointReporter {
   virtual void report_joints(std::vector<JointForce>& out) const = 0;
 };
 
-/// How a rigid body moves at t^n; velocities are those of the last half step.
+/// Motion of a rigid body at t^n; velocities are those of the last half step.
 struct RigidBodyMotion {
   Id part = 0;
   Vec x = Vec::Zero(), displacement = Vec::Zero();   ///< of the centre [L]

@@ -1,5 +1,5 @@
 #pragma once
-// The state of a run as named arrays of numbers: what a restart file holds.
+// The state of a run as named arrays of numbers: the content of a restart file.
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace courant {
 
-/// What the numbers of an array are.
+/// Type of the numbers of an array.
 enum class SavedType : char { real, integer64, integer32, byte };
 
 template <class T>
@@ -40,16 +40,16 @@ struct SavedArray {
 /// By path: "particles/velocity", "passes/contact 1/travel".
 using SavedState = std::map<std::string, SavedArray>;
 
-/// Takes members of objects into a SavedState, or gives them the values from there: one and the same list of
-/// members serves both ways, so that nothing can be saved and then forgotten. While loading everything throws
-/// RestartError where a name is missing or holds something else.
+/// Saves members of objects in a SavedState, or loads them from it: one list of members serves both
+/// directions, so no saved member can be forgotten on loading. Loading throws RestartError where a name is
+/// missing or has another type or size.
 class Archive {
  public:
   static Archive saver(SavedState& state) { return Archive(state, false); }
   static Archive loader(SavedState& state) { return Archive(state, true); }
   bool loading() const { return loading_; }
 
-  /// From here on names are below `group`, until the object that this returns is gone.
+  /// Names are below `group` during the lifetime of the returned object.
   class Group {
    public:
     Group(Archive& archive, const std::string& group) : archive_(archive), before_(archive.prefix_) {
@@ -102,12 +102,12 @@ class Archive {
     fixed(name, saved_type<T>(), rows.size(), count * sizeof(T), starts);
   }
 
-  /// Whether the state holds something under that name.
+  /// Whether the state has an array of that name.
   bool has(const std::string& name) const { return state_.contains(prefix_ + name); }
   /// Numbers saved under that name in all rows, while loading.
   std::size_t count(const std::string& name) const;
 
-  /// Throws RestartError if the state holds something that is not requested: it is from a run with other
+  /// Throws RestartError if the state has an array that was not requested: it is from a run with other
   /// passes.
   void stop_for_leftovers() const;
   [[noreturn]] void stop(const std::string& name, const std::string& why) const;

@@ -1,6 +1,6 @@
 #pragma once
-// Fields by which folders meet that never include each other: each is described here alone. One of them adds
-// the field, and others respect it where it is there.
+// Fields shared by folders that never include each other; they are described here only. One folder adds the
+// field, and others respect it where it exists.
 #include "state/field.hpp"
 
 namespace courant {
@@ -9,9 +9,9 @@ template <class T>
 class SharedField {
  public:
   explicit SharedField(FieldInfo info) : info_(std::move(info)) {}
-  /// Registers it, if nobody has yet.
+  /// Registers it unless it is registered.
   Field<T>& add(FieldSet& set) const { return set.add<T>(info_); }
-  /// nullptr: nobody has registered it.
+  /// nullptr: it is not registered.
   Field<T>* find(const FieldSet& set) const { return dynamic_cast<Field<T>*>(set.find(info_.name)); }
 
  private:
@@ -20,29 +20,29 @@ class SharedField {
 
 namespace shared_fields {
 
-/// Particles: 1 where a wall is within reach of contact, which marks it; who adds the field clears it when
-/// neighbours are refreshed.
+/// Particles: 1 where a wall is within reach of contact, which marks it; the pass that adds the field clears
+/// it when neighbours are refreshed.
 inline const SharedField<Index> near_wall{{.name = "near_wall", .dimension = "-"}};
 /// Points: axes along which SPC hold them, 1 x + 2 y + 4 z.
 inline const SharedField<Index> held_axes{{.name = "fixed", .dimension = "-"}};
 /// Points: != 0 where a prescribed motion drives them.
 inline const SharedField<Index> prescribed_motion{{.name = "prescribed_motion", .dimension = "-"}};
-/// Nodes: axes along which prescribed motions drive them in this step, 1 x + 2 y + 4 z; oblique ones along
-/// all that they have a part of.
+/// Nodes: axes along which prescribed motions drive them in this step, 1 x + 2 y + 4 z; oblique motions count
+/// along all axes of which they have a component.
 inline const SharedField<Index> driven_axes{{.name = "driven_axes", .dimension = "-"}};
-/// Particles: acceleration towards a mirror that does not turn round behind it, as it should; whoever adds
-/// such a force tells it here, gravity apart.
+/// Particles: acceleration towards a mirror that is not reversed behind it, as it should be; passes that add
+/// such a force record it here, except for gravity.
 inline const SharedField<Real> mirror_pull{{.name = "mirror_pull", .dimension = "L/T2", .restart = false}};
-/// Particles: the inlet they wait at or came from.
+/// Particles: the inlet where they wait or from which they came.
 inline const SharedField<Index> inlet{{.name = "inlet", .dimension = "-"}};
-/// Particles: m/RO, to which internal energy belongs.
+/// Particles: m/RO, the reference volume of the internal energy.
 inline const SharedField<Real> reference_volume{{.name = "reference_volume", .dimension = "L3"}};
-/// Particles: stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Those beside the box
-/// keep that of when they were active.
+/// Particles: stress beside the pressure, viscous and of strength: xx yy zz xy yz zx. Particles outside the
+/// box keep their last active value.
 inline const SharedField<Real> stress{
     {.name = "stress", .dimension = "M/LT2", .components = 6, .exchange = true}};
-/// Nodes of shells that deform turn, too: angles about the axes so far, angular velocity, moment, and the
-/// inertia against that, the same about all axes. Nodes of no such shell have none of it.
+/// Rotations of nodes of deforming shells: angles about the axes so far, angular velocity, moment, and rotary
+/// inertia, the same about all axes. Other nodes have none of these.
 inline const SharedField<Real> rotation{
     {.name = "rotation", .dimension = "-", .components = 3, .output = true}};
 inline const SharedField<Real> angular_velocity{
@@ -53,16 +53,16 @@ inline const SharedField<Real> rotary_inertia{{.name = "rotary_inertia", .dimens
 /// Nodes: moment with which SPC hold their rotations.
 inline const SharedField<Real> support_moment{
     {.name = "support_moment", .dimension = "ML2/T2", .components = 3, .restart = false}};
-/// Nodes: the share of their mass that mass scaling added [M].
+/// Nodes: the part of their mass that mass scaling added [M].
 inline const SharedField<Real> added_mass{{.name = "added_mass", .dimension = "M", .output = true}};
 /// Elements and faces: 0 there, else one of the values below. Only where elements may fail.
 inline const SharedField<Index> eroded{{.name = "eroded", .dimension = "-"}};
 inline constexpr Index deleted = 1;
-inline constexpr Index hidden = 2;  ///< an inner face of solids, which deletion may lay bare
-/// Faces of shells: thickness with which contact counts. Only where it is not that of the shells.
+inline constexpr Index hidden = 2;  ///< an inner face of solids, which deletion may expose
+/// Faces of shells: thickness for contact. Only where it differs from that of the shells.
 inline const SharedField<Real> contact_thickness{
     {.name = "contact_thickness", .dimension = "L", .restart = false}};
-/// Nodes: 1 where moments do not turn it: a rigid body does, or it belongs to no shell that deforms.
+/// Nodes: 1 where moments do not rotate it: a rigid body rotates it, or it belongs to no deforming shell.
 inline const SharedField<Index> no_rotation{{.name = "no_rotation", .dimension = "-"}};
 /// As held_axes and prescribed_motion, of rotations.
 inline const SharedField<Index> held_rotations{{.name = "held_rotations", .dimension = "-"}};

@@ -3,13 +3,13 @@
 
 namespace courant::shared_fields {
 
-/// Nodes: the share of their mass that belongs to nodes which they carry, and weighs there; of a carried node
-/// the share that rigid bodies have. [M]
+/// Nodes: the part of their mass that belongs to nodes which they carry, whose weight acts there; of a
+/// carried node the part that rigid bodies have. [M]
 inline const SharedField<Real> tied_mass{{.name = "tied_mass", .dimension = "M", .restart = false}};
 
-/// Nodes: momentum that the last step did not yet give to carriers of others. [ML/T]
+/// Carrying nodes: momentum not yet transferred in the last step. [ML/T]
 inline const SharedField<Real> open_momentum{{.name = "open_momentum", .dimension = "ML/T", .components = 3}};
-/// Nodes: axes along which they move as others of a node set do, 1 x + 2 y + 4 z.
+/// Nodes: axes along which they move with the other nodes of a node set, 1 x + 2 y + 4 z.
 inline const SharedField<Index> alike_axes{{.name = "alike_axes", .dimension = "-", .restart = false}};
 /// Nodes and particles: force with which SPC hold them. [ML/T2]
 inline const SharedField<Real> support_force{

@@ -20,22 +20,22 @@ struct EnergyLedger {
   Real discrete = 0;   ///< share of springs and dampers in `internal`
   Real potential = 0;  ///< - sum m g.x of active particles and bodies
   Real contact = 0;    ///< stored in penalty springs
-  Real hourglass = 0;  ///< taken by hourglass control of elements
+  Real hourglass = 0;  ///< of hourglass control of elements
   /// Share of `hourglass` that is the bending energy of elastic solids: their hourglass forces are those of
   /// assumed strains (IHQ 6 with QM 1).
   Real assumed_bending = 0;
-  Real bulk_viscosity = 0;  ///< taken by bulk viscosity of elements
+  Real bulk_viscosity = 0;  ///< of bulk viscosity of elements
   Real dissipated = 0;      ///< by viscosity, contact damping, friction (accumulates)
   Real external_work = 0;   ///< work done on the active particles from outside: load curves, box boundary,
                             ///< inflow minus outflow (accumulates)
   Real throughput =
       0;  ///< energy that passed through so far: sum of |work| of all kinds and of inflow (accumulates)
   Real initial = 0;  ///< total at t = 0
-  /// Net work that the forces at t^n did since the half step that `kinetic` is of: how far apart the times
-  /// of the terms are.
+  /// Net work of the forces at t^n since the half step of `kinetic`: the effect of the different times of the
+  /// terms.
   Real half_step = 0;
-  /// What leapfrog keeps of linear motion, exactly at every stable step, is less than the energy at t^n by
-  /// sum f^2 dt^2/(8 m): of the step that led here, and of the first one, which the ledger starts from.
+  /// For linear motion leapfrog conserves, exactly at every stable step, the energy at t^n less sum f^2
+  /// dt^2/(8 m): that of the last step, and that of the first one, from which the ledger starts.
   Real below = 0, below_at_start = 0;
   Real most_internal = 0;  ///< largest that the guard saw
   Real peak = 0;  ///< largest `present` that the guard saw, and at least round-off of the rest energy m c^2
@@ -43,13 +43,13 @@ struct EnergyLedger {
     return kinetic + internal + potential + contact + hourglass + bulk_viscosity + dissipated;
   }
   Real residual() const { return total() - initial - external_work; }
-  /// What of the residual is no matter of how half steps are counted: 0 where `half_step` explains it, or
-  /// that with `below`.
+  /// The part of the residual that half steps do not explain: 0 where `half_step`, alone or with `below`,
+  /// explains it.
   Real unexplained() const;
-  /// Energy that this scene is about, wherever heights count from: the largest that it held, and what passed
-  /// through. The measure of a residual. Not 0 once the guard has looked.
+  /// Energy of the scene, independent of the origin of heights: the largest energy it had, plus the
+  /// throughput. The reference of a residual. Not 0 after the first check of the guard.
   Real scale() const { return peak + throughput; }
-  /// Share of `scale` that came from nowhere (> 0) or was lost; 0 where it is round-off of the terms.
+  /// Fraction of `scale` that was created (> 0) or lost; 0 where it is round-off of the terms.
   Real error() const;
 };
 
@@ -69,8 +69,8 @@ struct World {
   EnergyLedger energy;
   Counters counters;
   std::map<std::string, Real> maxima;  ///< largest values over the run, for summary.yaml: max_penetration
-  /// Which thread works on which blocks of active particles, and of active and halo particles; neighbours
-  /// choose. Blocks of other sets are shared evenly.
+  /// Blocks of active particles, and of active and halo particles, of each thread; the neighbour search
+  /// defines them. Blocks of other sets are divided evenly.
   Shares shares, moving_shares;
 
   Index elements() const;  ///< of all groups
@@ -89,10 +89,10 @@ struct World {
   PassList passes;  ///< those the deck asks for
 };
 
-/// Whether nothing but bodies, springs and lumped masses moves.
+/// Whether only bodies, springs and lumped masses move.
 bool moves_all_by_bodies(const World& world);
 
-/// Per-part and per-interface sums for the histories; filled on request by whoever owns them.
+/// Per-part and per-interface sums for the histories; filled on request by the owning pass.
 struct InterfaceForce {
   Id id = 0;
   std::string title;

@@ -14,7 +14,7 @@ namespace courant {
 namespace {
 
 const StagePlan::Entry* at_work = nullptr;
-/// An entry at work; nobody is once it has gone, also where its pass throws.
+/// The running entry; none after its destruction, also where its pass throws.
 struct AtWork {
   explicit AtWork(const StagePlan::Entry& entry) { at_work = &entry; }
   ~AtWork() { at_work = nullptr; }

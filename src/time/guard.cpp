@@ -207,7 +207,7 @@ void Guard::stop_for_energy(const EnergyLedger& e, const Clock& clock) {
       throw RunError(fmt::format("the {} became {} at time {:.6g}, cycle {}: the run is unstable", name,
                                  value, clock.t, clock.cycle),
                      StopCause::not_finite);
-  if (clock.cycle == 0 || clock.cycle % interval != 0) return;  // whoever else asks for a look, at outputs
+  if (clock.cycle == 0 || clock.cycle % interval != 0) return;  // other checks are those before outputs
   const Real now = least_energy_ + initial_size_ + std::max(e.throughput - e.dissipated, Real(0)) +
                    std::max(initial_potential_ - e.potential, Real(0)) +
                    std::max(initial_internal_ - e.internal, Real(0));

@@ -17,13 +17,13 @@ class PassTimer {
   static double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   }
-  /// Index of the row of that name; a new row stands after the others.
+  /// Index of the row of that name; a new row is after the others.
   std::size_t row(const std::string& name);
   void add(std::size_t row, double seconds) {
     table_[row].seconds += seconds;
     ++table_[row].calls;
   }
-  /// Adds what a pass took before a restart.
+  /// Adds the time of a pass before a restart.
   void add(const Row& before) {
     Row& to = table_[row(before.name)];
     to.seconds += before.seconds;

@@ -1,5 +1,5 @@
 #pragma once
-// How stages follow from what passes declare.
+// Stages from the declarations of passes.
 #include <string>
 #include <vector>
 
@@ -7,29 +7,29 @@
 
 namespace courant {
 
-/// Passes that threads work through with no serial work in between. `start` of all comes before, `finish` of
-/// all after it.
+/// Passes that threads execute without serial work in between. `start` of all comes before, `finish` of all
+/// after it.
 struct StagePlan {
   struct Entry {
     BlockPass* pass;
     const FieldSet* over;
     Accesses accesses;
     bool waits = false;  ///< threads wait for each other before it
-    std::string why{};   ///< it waits, or begins a stage: the resource and who changes it
+    std::string why{};   ///< reason of the wait or the new stage: the resource and the pass that changes it
   };
   std::vector<Entry> entries;
-  std::vector<const Resource*> exchange;  ///< whose ghosts are brought up to date before the stage
+  std::vector<const Resource*> exchange;  ///< fields whose ghosts are updated before the stage
 };
 
-/// The stages of a step: those up to the choice of dt, and those that move.
+/// The stages of a step: those up to the choice of dt, and those of motion.
 struct Schedule {
   std::vector<StagePlan> forces, motion;
 };
 
-/// A pass waits where it reads of others what an earlier pass of the stage changed, or changes what an
-/// earlier one reads of others. It begins a new stage where that change comes in a `finish`, where its
-/// `start` needs it, or where ghosts have to be exchanged in between. Throws std::logic_error where a pass
-/// changes a field of another set than its own otherwise than in `start` or `finish`.
+/// A pass waits where it reads of others a resource that an earlier pass of the stage changed, or changes one
+/// that an earlier pass reads of others. It begins a new stage where that change is made in a `finish`, where
+/// its `start` needs it, or where ghosts have to be exchanged in between. Throws std::logic_error where a
+/// pass changes a field of another set than its own otherwise than in `start` or `finish`.
 Schedule make_schedule(const World& world);
 
 /// The stages as text, a line for each pass, for `courant run` and the docs.

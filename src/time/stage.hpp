@@ -14,7 +14,7 @@ class Stage {
   void run(World& world, const Clock& clock);
 
  private:
-  /// The entities of a pass, and who works on which of their blocks.
+  /// The entities of a pass, and their blocks by thread.
   struct Work {
     Index n = 0;
     const Shares* shares = nullptr;
@@ -23,11 +23,11 @@ class Stage {
   void exchange(World& world);
   void run_each_checked(World& world, const Clock& clock);
   void run_share(World& world, const Clock& clock, int thread, std::size_t first_pass, std::size_t last_pass);
-  /// A thread's seconds in each pass; on lines of its own, so that threads do not share one.
+  /// Seconds of a thread in each pass, on separate cache lines.
   struct alignas(64) Seconds {
     std::vector<double> of_pass;
   };
-  /// Of a set that neighbours do not share: evenly.
+  /// Of a set without shares by the neighbour search: evenly.
   struct EvenShares {
     const FieldSet* set;
     Index blocks = -1;
@@ -39,7 +39,7 @@ class Stage {
   std::size_t waiting_;
   std::vector<Exchanger*> exchangers_;
   std::vector<std::size_t> rows_;
-  std::vector<std::size_t> parts_;  ///< where passes begin before which threads wait, and the end
+  std::vector<std::size_t> parts_;  ///< first passes behind barriers, and the end
   std::vector<Work> work_;
   std::vector<EvenShares> even_;  ///< one of each other set
   std::vector<double> serial_;

@@ -13,17 +13,17 @@
 
 namespace courant {
 
-/// Told once per cycle when x, p and f all belong to t^n and dt is chosen, before the kick.
+/// Called once per cycle when x, p and f are all at t^n and dt is chosen, before the kick.
 using AtTimeLevel = std::function<void(World&, const Clock&, const std::string& dt_controlled_by)>;
 
-/// How the step size may change besides the limits of the passes.
+/// Rules for the step size besides the limits of the passes.
 struct StepRules {
   Real dtinit = 0;                               ///< first step, 0: from the limits [T]
   std::function<Real(Real t)> dt_max = nullptr;  ///< LCTM curve
   Real dtmin = 0;                                ///< stop below this times the first computed step
   Real tssfac = 1;                               ///< of most limits; a restart may change it
-  Real share = 1;                                ///< of what passes allow: the rest is left to constraints
-  std::shared_ptr<Guard> guard = nullptr;        ///< looks at the state now and then
+  Real share = 1;                          ///< fraction of the limits of passes; the rest is for constraints
+  std::shared_ptr<Guard> guard = nullptr;  ///< checks the state at intervals
 };
 
 /// Takes steps of the staggered central difference,
@@ -31,8 +31,8 @@ struct StepRules {
 /// density and energy advance with the velocity of the last kick, before the pressure is used.
 class Stepper : public Restartable {
  public:
-  /// Adds what watches the lists to the passes of `world`, which must not change afterwards. `neighbours`:
-  /// null where there are no particles.
+  /// Adds the pass that monitors the lists to the passes of `world`, which must not change afterwards.
+  /// `neighbours`: null where there are no particles.
   Stepper(World& world, Neighbours* neighbours, StepRules rules, PassTimer& timer);
 
   void step(Clock& clock, const AtTimeLevel& at_time_level);
@@ -60,7 +60,7 @@ class Stepper : public Restartable {
   std::vector<Impact*> impacts_;
   std::vector<EnergyTerm*> terms_;
   std::vector<Stage> forces_, motion_;
-  TimeLimit::Limit computed_{0, {}};  ///< what passes allow, whatever DTINIT and LCTM say
+  TimeLimit::Limit computed_{0, {}};  ///< limit of the passes, without DTINIT and LCTM
   SteadyStep steady_;
   Real first_dt_ = 0, first_tssfac_ = 1;  ///< of the first step: that [T], and TSSFAC
 };

@@ -1,8 +1,8 @@
 #pragma once
-// The world as data sets of VTK, for programs that embed Courant and look at a run while it goes on. Arrays
-// are the world's own, nothing is copied: they hold until the next step, as fields may move when particles
-// are sorted; what a filter keeps longer has to be copied (DeepCopy). Values may change through them, at your
-// own risk.
+// The world as data sets of VTK, for programs that embed Courant and read a run in progress. Arrays are the
+// world's own, nothing is copied: they hold until the next step, as fields may move when particles are
+// sorted; what a filter keeps longer has to be copied (DeepCopy). Values may change through them, at your own
+// risk.
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>

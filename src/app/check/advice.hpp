@@ -13,7 +13,7 @@ struct StopFacts {
   StopCause cause = StopCause::other;
   std::string hint;  ///< of the error itself
   std::int64_t cycle = 0;
-  std::string dt_set_by;  ///< who set the last step
+  std::string dt_set_by;  ///< source of the last step
   bool has_contact = false;
   Real tssfac = 0.9;
   Real contact_share = 0;                  ///< last step over what contact would allow, 0 without contact

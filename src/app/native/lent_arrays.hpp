@@ -1,5 +1,6 @@
 #pragma once
-// Arrays of a run's fields for numpy, without a copy while the program looks, and safe when it keeps them.
+// Arrays of a run's fields for numpy, without a copy while the program reads them, and safe when it keeps
+// them.
 #include <pybind11/numpy.h>
 
 #include <map>

@@ -18,7 +18,7 @@ namespace courant::native {
 class LiveState {
  public:
   explicit LiveState(Simulation& simulation);
-  void end();  ///< the run goes on
+  void end();  ///< the run continues
 
   const Real t, dt;
   const std::int64_t cycle;

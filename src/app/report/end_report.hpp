@@ -6,14 +6,14 @@
 
 namespace courant {
 
-/// What the end of a run says of the whole: timing table, sums, ranges, warnings, banner. One line each.
+/// The report at the end of a run: timing table, sums, ranges, warnings, banner. One line each.
 std::vector<std::string> end_report(const Summary& summary);
 
 /// What speaks against the results, but for an error that stopped the run, and what made it slow: one line
 /// each, with advice.
 std::vector<std::string> end_warnings(const Summary& summary);
 
-/// Active particles, energy ratio as the guard saw it last, and leaks of a run under way.
+/// Active particles, energy ratio of the last check of the guard, and leaks of a run under way.
 std::string state_in_words(const World& world);
 
 /// "51 s", "3 min 07 s", "2 h 05 min"

@@ -8,7 +8,7 @@
 
 namespace courant {
 
-/// Which the numbers of its deck look like; nothing where no common system fits.
+/// The most probable units of its deck; nothing where no common system fits.
 std::optional<UnitNames> units_of(const Simulation& simulation);
 /// Time, steps, energies, counters, ranges and memory.
 void note_end(Summary& summary, Simulation& simulation);

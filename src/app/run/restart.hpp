@@ -1,5 +1,5 @@
 #pragma once
-// Restart files of runs: which one to go on from, which ones to write and when.
+// Restart files of runs: the one to continue from, those to write, and when.
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace courant {
 
-/// A state to go on from.
+/// A state to continue from.
 struct Restart {
   std::filesystem::path file;
   SavedState state;
@@ -28,7 +28,7 @@ struct Restart {
 /// and which other file could be used.
 Restart open_restart(const std::filesystem::path& file_or_folder);
 
-/// The first entries of a restart file: who wrote it, when, and of which deck.
+/// The first entries of a restart file: its program, time and deck.
 void keep_head(Restart& head, Archive& archive);
 /// Of this program, at the present state of `simulation`.
 Restart head_of(Simulation& simulation);
@@ -56,7 +56,7 @@ bool prepare_folder(const RunOptions& options, const Deck& deck);
 /// How far the files had come when the restart file was written.
 HistoryPositions positions_before(const RunOptions& options);
 
-/// The command by which a run of this deck goes on from a restart file.
+/// The command to continue a run of this deck from a restart file.
 std::string call_to_go_on(const std::string& deck, const RunOptions& options, const std::string& file);
 
 /// Moves the restart files in `dir`/restart of states later than `cycle` to `dir`/restart_old, so that nobody

@@ -1,5 +1,5 @@
 #pragma once
-// Which outputs a deck asks of a run, and when.
+// The outputs that a deck requests, and their times.
 #include "app/run/simulation.hpp"
 #include "output/ascii/ascii.hpp"
 #include "output/messag.hpp"

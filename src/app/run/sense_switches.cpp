@@ -57,7 +57,7 @@ std::optional<SenseSwitch> SenseSwitches::take_file(const std::filesystem::path&
   std::string line;
   std::getline(stream, line);
   auto order = sense_switch_of(line);
-  if (!order) return order;  // somebody has made the file and will write it
+  if (!order) return order;  // the file was created and will be written
   std::error_code error;
   if (std::filesystem::remove(file, error)) return order;
   if (stuck_ == line) return std::nullopt;

@@ -19,14 +19,14 @@ struct SenseSwitch {
 /// The order that a text gives; nothing for an empty one. The period may be missing.
 std::optional<SenseSwitch> sense_switch_of(const std::string& text);
 
-/// What to say of an order that is none.
+/// The message for an invalid order.
 std::string unknown_switch(const SenseSwitch& order);
 
 class SenseSwitches {
  public:
   /// keyboard: lines typed at the terminal are orders, too.
   SenseSwitches(std::filesystem::path dir, bool keyboard) : dir_(std::move(dir)), keyboard_(keyboard) {}
-  /// An order that was given since the last call; looks twice a second at most. A file that gave it is
+  /// An order that was given since the last call; checks twice a second at most. A file that gave it is
   /// removed, so that it acts once.
   std::optional<SenseSwitch> take();
 

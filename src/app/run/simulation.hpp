@@ -72,20 +72,20 @@ class Simulation {
   const T& get() const {
     return assembly_.get<T>();
   }
-  /// Why a run cannot go on until `end`: particles of inlets were made, and formulas of curves taken, up to
-  /// ENDTIM. Empty where it can. [T]
+  /// The reason why a run cannot continue until `end`: particles of inlets were made, and formulas of curves
+  /// taken, up to ENDTIM. Empty where it can. [T]
   std::string why_not_until(Real end) const;
   static constexpr const char* how_until = "give the later end as ENDTIM";
   PassTimer& timer() { return timer_; }
   double read_seconds() const { return read_seconds_; }  ///< for deck and set-up: the first rows of timer()
-  /// What the deck asks for in front of the run: another simulation of it, of RunPhase::relaxation, from
+  /// The phase before the run that the deck requests: another simulation of it, of RunPhase::relaxation, from
   /// which this one starts. app/run/relaxation.hpp.
   const Relaxation& relaxation() const { return get<Relaxation>(); }
   void slow_down(Real factor);    ///< all velocities times a factor
   void slow_bodies(Real factor);  ///< those of rigid bodies, without their nodes
   /// Takes the state of a relaxation: time begins with 0, velocities are those of the deck's start.
   void start_from(Simulation& relaxed);
-  Guard& guard() { return *guard_; }  ///< looks every Guard::interval steps, and when told to
+  Guard& guard() { return *guard_; }  ///< checks every Guard::interval steps, and on request
   const Guard& guard() const { return *guard_; }
   /// Saves or loads all that later steps depend on; between steps only. A run that goes on after it, and one
   /// that is loaded into a fresh simulation of the same deck, have the same bits from then on. Throws
@@ -126,7 +126,7 @@ struct RunOptions {
   std::string dir = ".";                             ///< where results go
   Real until = 0;                                    ///< > 0: end time instead of ENDTIM [T]
   std::vector<std::string> warnings;                 ///< of the deck, for summary.yaml
-  std::vector<std::string> params;                   ///< NAME=VALUE, for the command that goes on
+  std::vector<std::string> params;                   ///< NAME=VALUE, for the command to continue
   bool d3plot = false;                               ///< --d3plot, for the same
   Id load_case = 0;                                  ///< of a deck with several, for the same; 0: none
   std::function<void(const std::string&)> print;     ///< lines of messag
@@ -135,9 +135,9 @@ struct RunOptions {
   bool dump_at_end = true;                           ///< a restart file when the run has ended or is stopped
   bool choose_threads = false;                       ///< as many as are quickest, else those that are set
   bool keyboard = false;                             ///< sense switches may be typed
-  Simulation* relaxing = nullptr;                    ///< in front of the run, where the deck asks for that
-  Restart* restart = nullptr;                        ///< what the run goes on from; emptied on the way
-  ProgramHook hook{};                                ///< a program that follows the run
+  Simulation* relaxing = nullptr;                    ///< before the run, if the deck requests it
+  Restart* restart = nullptr;  ///< the state from which the run continues; emptied meanwhile
+  ProgramHook hook{};          ///< a program that follows the run
 };
 
 /// Runs to the end and writes all results. Throws OutputError where the folder cannot be written at the

@@ -1,5 +1,5 @@
 #pragma once
-// The files of states that a deck asks for: VTK's, d3plot, or both.
+// The files of states requested by a deck: VTK's, d3plot, or both.
 #include <filesystem>
 #include <optional>
 #include <string>

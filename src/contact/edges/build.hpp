@@ -4,7 +4,7 @@
 
 namespace courant {
 
-/// For all *CONTACT cards that ask for it; `nodes`: contact of their nodes with faces. Elements must be
+/// For all *CONTACT cards that request it; `nodes`: contact of their nodes with faces. Elements must be
 /// there, and Nodes::held, ::follow be set. Reports what is not supported, and as warnings initial
 /// penetrations.
 void add_edge_contacts(const Deck& deck, const Model& model, const NodeContactOptions& options,

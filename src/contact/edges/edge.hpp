@@ -42,7 +42,7 @@ NearestPoints nearest_points(const EdgeEnds& a, const EdgeEnds& b);
 std::array<Real, 2> beside(const EdgeEnds& a, const EdgeEnds& b);
 /// The same for a given point of a.
 NearestPoints nearest_to_point(const EdgeEnds& a, const EdgeEnds& b, Real s);
-/// Whether the edges went through each other between two times, their ends on straight ways.
+/// Whether the edges went through each other between two times, with straight paths of their ends.
 bool went_through(const EdgeEnds& a0, const EdgeEnds& b0, const EdgeEnds& a1, const EdgeEnds& b1);
 
 }  // namespace courant

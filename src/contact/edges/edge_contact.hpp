@@ -21,8 +21,8 @@ namespace courant {
 
 /// The interface at work, see docs/theory_contact.md. Edges that cross touch where they are nearest to each
 /// other; along a line of edges the nearest pair has the touch, and hands it on. Edges that begin to touch
-/// side by side have two touches, at Gauss points of the length that they share. A touch knows the side that
-/// it came from, so neither thin beams nor speed make it go on the wrong side.
+/// side by side have two touches, at Gauss points of the length that they share. A touch stores its side of
+/// origin, so neither thin beams nor speed give a wrong side.
 ///
 /// Forces go to a list of touches, from which each node gathers its own in a fixed order. What survives a
 /// step is that list.
@@ -138,7 +138,7 @@ class EdgeContact : public Force,
   int number_;
   bool friction_on_, drag_on_;
   std::vector<ContactEdge> edges_;
-  std::vector<std::array<std::vector<Index>, 2>> next_;  ///< by edge and end: others that go on from there
+  std::vector<std::array<std::vector<Index>, 2>> next_;  ///< by edge and end: edges that continue there
   std::vector<Index> chain_;                             ///< by edge: of edges that hang together the first
   std::vector<EdgeEnds> start_;                          ///< where edges are at the start
   FieldSet* set_;
@@ -154,10 +154,10 @@ class EdgeContact : public Force,
   std::int64_t eroded_count_ = 0;
   bool listed_once_ = false, fresh_ = true, asleep_ = false;
   Real soft_dt_ = 0;         ///< longest step so far [T]
-  bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
+  bool first_step_ = false;  ///< of the run: from now on SOFT 1 has a step
 
   std::vector<Block> blocks_;
-  std::vector<Touch> touches_;             ///< sorted; in `block` those that go on
+  std::vector<Touch> touches_;             ///< sorted; in `block` those that continue
   std::set<std::array<Index, 2>> parted_;  ///< pairs whose touches ended in this step
   std::vector<Real> springs_;  ///< by position in involved_: stiffness of touches a step ago [M/T2]
   std::vector<Index> key_, first_, order_;  ///< four for each touch, by position in involved_

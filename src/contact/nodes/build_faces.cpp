@@ -216,7 +216,7 @@ std::vector<Index> FaceFinder::nodes(const ContactCard& card, ContactSide side,
       const auto at = node_of_id().find(model_.nodes[static_cast<std::size_t>(n)].id);
       if (at != node_of_id().end()) out.push_back(at->second);
     }
-  } else if (world_.particles.size() == 0) {  // else those who look for particles tell it
+  } else if (world_.particles.size() == 0) {  // else the contact of particles reports it
     deck_.error(diagnostics_, card, f.field, fmt::format("node set {} does not exist", f.id),
                 "define it with *SET_NODE_LIST");
   }

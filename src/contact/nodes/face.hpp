@@ -1,5 +1,5 @@
 #pragma once
-// A face of an element that nodes touch: bilinear, whatever its warp.
+// A face of an element that nodes touch: bilinear, for any warp.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,8 +19,8 @@ struct ContactFace {
   Real r = 0;              ///< nodes touch it at this distance, half its thickness [L]
   Real k = 0;              ///< K A^2/V of a solid, K A/(longest diagonal) of a shell [M/T2]
   Real area = 0;           ///< at the start [L2]
-  Real depth = 0;          ///< of the element behind it, where nodes that touch nothing are looked for [L]
-  Real through = 0;        ///< who touched it and is further behind it has gone through [L]
+  Real depth = 0;          ///< of the element behind it, the search depth for nodes without contact [L]
+  Real through = 0;        ///< depth beyond which a node in contact has leaked [L]
   unsigned passes = 0;     ///< bit p: nodes of pass p touch it
   bool has(Index n) const { return node[0] == n || node[1] == n || node[2] == n || node[3] == n; }
   int shared(const ContactFace& other) const {  ///< corners that both have
@@ -43,7 +43,7 @@ struct FaceShape {
 /// most that from the face. [L]
 Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider);
 
-/// Faces reach this far beyond their edges, of their width: over faces that go on there, and for ties.
+/// Faces reach this far beyond their edges, of their width: over faces that continue there, and for ties.
 inline constexpr Real edge_margin = 0.0125;
 
 /// A node that slides off an outer edge is pushed in full up to here beyond it. [L]

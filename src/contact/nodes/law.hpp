@@ -21,8 +21,8 @@ struct NodeContactLaw : FrictionLaw {
   int soft = 0, penopt = 1;
   Real sofscl = 0.1, dtstif = 0;  ///< SOFT 1: scale [-] and step if given [T]
   Real tssfac = 0.9;              ///< what elements leave of their own step
-  int enmass = 0;                 ///< whose nodes go on to touch once their elements are deleted
-  bool with_edges = false;        ///< edges touch, too: each asks for half of what elements leave of a step
+  int enmass = 0;                 ///< whose nodes keep their contact once their elements are deleted
+  bool with_edges = false;        ///< edges also touch: each uses half of the step that elements leave
   bool single = false;            ///< one surface with itself: the forces on it are in balance
 };
 

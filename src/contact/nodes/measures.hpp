@@ -22,7 +22,7 @@ class ContactMeasures {
   NodeContactLaw law() const;
 
  private:
-  /// *CONTROL_CONTACT and the card: what they say of the thickness of shells.
+  /// The thickness of shells by *CONTROL_CONTACT and the card.
   struct OfShells {
     bool of_rigid = true, of_others = true;
     bool limited = false;  ///< to 0.4 of the shortest edge

@@ -21,7 +21,7 @@ namespace courant {
 /// A node that touches faces.
 struct ContactNode {
   Index node = 0;             ///< index into World::nodes
-  unsigned pass = 0;          ///< 0: of SURFA, on faces of SURFB; 1: the other way round
+  unsigned pass = 0;          ///< 0: of SURFA, on faces of SURFB; 1: the reverse
   Real r = 0;                 ///< half its contact thickness [L]
   Index first = 0, last = 0;  ///< the faces that it belongs to: of ContactSides::own
 };
@@ -148,7 +148,7 @@ class NodeContact : public Force,
     std::array<Real, 4> tilt{};  ///< on the corners besides their shares, along it; sums to 0 [ML/T2]
     Vec force = Vec::Zero();     ///< all of it, on the node [ML/T2]
   };
-  struct Seen {  ///< a candidate, looked at now
+  struct Seen {  ///< the present candidate
     Index face = 0;
     Projection at;
     Real d = 0;  ///< distance along the normal [L]
@@ -242,7 +242,7 @@ class NodeContact : public Force,
   int number_;
   bool friction_on_, drag_on_;
   std::vector<Index> part_of_node_,
-      part_of_face_;  ///< of World::nodes, of faces_; empty: friction does not ask
+      part_of_face_;  ///< of World::nodes, of faces_; empty: not needed by friction
   std::vector<ContactNode> nodes_;
   std::vector<OwnFace> own_;
   std::vector<ContactFace> faces_;
@@ -276,12 +276,12 @@ class NodeContact : public Force,
   bool fresh_ = true;  ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
   Real soft_dt_ = 0;         ///< longest step so far [T]
-  bool first_step_ = false;  ///< of the run: SOFT 1 knows a step from now on
+  bool first_step_ = false;  ///< of the run: from now on SOFT 1 has a step
 
   std::vector<Block> blocks_;
   std::vector<Touch> touches_;  ///< of all blocks
   std::vector<Share> shares_;
-  std::vector<Index> key_, first_, order_;  ///< shares_ by place in involved_
+  std::vector<Index> key_, first_, order_;  ///< shares_ by position in involved_
   StiffestContact stiffest_;
   Real due_ = 0;  ///< until the next node comes through a face [T]
   Resource touches_resource_{"touches of nodes"};

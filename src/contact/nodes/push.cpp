@@ -47,7 +47,7 @@ Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& t
       continue;
     }
     const auto b = static_cast<std::size_t>(body);
-    constexpr Real alone = 1.5;  // times its own spring: nobody else touches, or nobody knew of this touch
+    constexpr Real alone = 1.5;  // times its own spring: no other touch, or this touch was not predicted
     if (body_springs_[b] < alone * touch.k) {
       omega2 += touch.k * touch.gives[side];
       continue;

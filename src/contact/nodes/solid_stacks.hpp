@@ -1,5 +1,5 @@
 #pragma once
-// How much of a body lies behind a face of a solid.
+// Depth of a body behind a face of a solid.
 #include <array>
 #include <vector>
 

@@ -319,7 +319,7 @@ class TiedBuilder {
                     const std::vector<Tie>& ties) {
     std::set<Index> there;
     for (const Tie& tie : ties) there.insert(tie.node);
-    for (const Index s : faces)  // who is a corner is joined already
+    for (const Index s : faces)  // corners are joined already
       for (const Index n : world_.segments.nodes(s)) there.insert(n);
     std::size_t count = 0;
     Id first = 0;

@@ -8,7 +8,7 @@
 namespace courant {
 
 /// A position that goes with a face: x = sum_i N_i x_i + gap n, n the unit normal of the bilinear face at
-/// that point. It moves as a rigid body does where the face does so, whatever the gap.
+/// that point. If the face moves as a rigid body, so does the point, for any gap.
 struct FacePoint {
   std::array<Index, 4> node{};  ///< corners, indices into World::nodes
   int corners = 4;

@@ -33,7 +33,7 @@ struct TiedSpringsLaw {
 
 /// What else may be tied, each node once, where it comes to touch.
 struct LaterTies {
-  Id contact = 0;  ///< which tells
+  Id contact = 0;  ///< which reports
   std::vector<TieNode> nodes{};
   std::vector<TieFace> faces{};
   Real scale = 1;  ///< of Tie::k

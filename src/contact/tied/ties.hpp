@@ -26,7 +26,7 @@ struct Tie {
   Index node = 0;     ///< index into World::nodes
   Index segment = 0;  ///< of the face, index into World::segments
   FacePoint at{};
-  Real area = 0;    ///< for which the node stands [L2]
+  Real area = 0;    ///< of the node [L2]
   Real cell = 0;    ///< of one of the node's own faces there, on average; 0 without [L2]
   Real k = 0;       ///< of a penalty spring, before scales [M/T2]
   Real turn_k = 0;  ///< of a spring between its rotation and that of the face; 0: none [ML2/T2]

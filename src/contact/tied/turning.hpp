@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Rotations of nodes, where the scene has them and ties ask for them.
+/// Rotations of nodes, if the scene has them and ties need them.
 struct TurningFields {
   Field<Real>*angle = nullptr, *speed = nullptr, *moment = nullptr, *inertia = nullptr;
   Field<Index>* none = nullptr;

@@ -4,11 +4,11 @@
 
 namespace courant {
 
-/// A pass over beams that knows where their axes are.
+/// A pass over beams with their axes.
 struct BeamAxes {
   virtual ~BeamAxes() = default;
   virtual const ElementGroup& beams() const = 0;
-  /// Whether it knows s and t besides r: trusses do not.
+  /// Whether it has s and t besides r: trusses do not.
   virtual bool knows_section() const = 0;
   virtual void declare_axes(const World& world, Accesses& a) const = 0;
   /// r, s, t at the end of the step, as columns.

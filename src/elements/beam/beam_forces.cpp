@@ -396,7 +396,7 @@ class BeamForces : public Material,
 
   /// Energy, forces and moments on the ends, and the step.
   void finish_one(const Clock& clock, Index e, Index i, const Change& change) {
-    if (dead(e)) return;  // who judges takes its forces
+    if (dead(e)) return;  // the pass that finds failures removes its forces
     const Six& now = change.now[at(i)];
     Six g = change.after[at(i)];
     const Real pull = g[elongation];

@@ -1,5 +1,5 @@
 #pragma once
-// Where a beam lies, and how its ends turn against it.
+// The axes of a beam, and the rotations of its ends against them.
 #include <array>
 
 #include <Eigen/Geometry>

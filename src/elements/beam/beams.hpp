@@ -65,7 +65,7 @@ std::vector<Index> beam_nodes(const Model& model);
 /// each node of the model. 2D is an error.
 void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::vector<Index>& node_of,
                  World& world, Diagnostics& diagnostics);
-/// Adds the forces of beams to the passes of `world`, and mass to welds that DT asks for.
+/// Adds the forces of beams to the passes of `world`, and the mass of welds by DT.
 void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, ElementOptions& options,
                      World& world);
 /// Tells what DT of *MAT_SPOTWELD has added.

@@ -6,12 +6,12 @@
 
 namespace courant {
 
-/// By which a beam deforms, and what answers: elongation and axial force, twist and torsion, rotations of end
-/// 1 and 2 about s, about t, against the line between the ends, and the moments that hold them.
+/// Deformations of a beam and the conjugate forces: elongation and axial force, twist and torsion, rotations
+/// of end 1 and 2 about s, about t, against the line between the ends, and the moments that hold them.
 enum Part6 { elongation, twist, turn1_s, turn2_s, turn1_t, turn2_t, count6 };
 using Six = std::array<Real, count6>;
 
-/// What a beam is that answers elastically.
+/// Properties of an elastic beam.
 struct ElasticBeam {
   Real E, G;  ///< [M/LT2]
   Real L;     ///< at the start [L]

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// A piece of a section: place from the middle of its box [L], and area [L2].
+/// A piece of a section: position from the middle of its box [L], and area [L2].
 struct SectionCell {
   Real s = 0, t = 0, area = 0;
 };

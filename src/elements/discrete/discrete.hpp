@@ -20,7 +20,7 @@ struct SpringPart {
   Real kd = 0, v0 = 0;                ///< of *SECTION_DISCRETE: force times 1 + kd |rate|/v0
   std::vector<Real> scale;            ///< S
   std::vector<Vec> along;             ///< unit vector of VID; 0: along the line between the ends
-  std::vector<Vec> ground;            ///< place of the second end, where that is the ground
+  std::vector<Vec> ground;            ///< position of the second end, if that is the ground
   std::vector<char> grounded, shown;  ///< N2 is 0; in deforc
 };
 

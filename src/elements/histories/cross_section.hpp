@@ -9,7 +9,7 @@
 namespace courant {
 
 /// At t^n. With the force the elements of the section push the nodes that it counts: of a plane those behind
-/// it, so that a pull along its normal is positive.
+/// it, so that tension along its normal is positive.
 struct SectionForce {
   Vec force = Vec::Zero();     ///< [ML/T2]
   Vec moment = Vec::Zero();    ///< about the centroid [ML2/T2]

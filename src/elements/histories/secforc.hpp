@@ -12,7 +12,7 @@ struct CrossSections : Pass {
   std::vector<CrossSection> sections{};
 };
 
-/// Whether it has any: they ask elements for the forces on their corners.
+/// Whether it has any: they need the forces of elements on their corners.
 bool has_cross_sections(const Deck& deck);
 
 }  // namespace courant

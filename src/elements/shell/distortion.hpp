@@ -1,5 +1,5 @@
 #pragma once
-// What CONTROL_SHELL asks for beside the loops: shells that turn inwards, and thickness by flow alone.
+// Options of CONTROL_SHELL beside the loops: shells that turn inwards, and thickness by flow alone.
 #include <algorithm>
 #include <array>
 #include <cmath>

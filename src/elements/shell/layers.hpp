@@ -20,13 +20,13 @@ class LayerReader {
   /// Fills points, laws and angles. False, perhaps without a message where others give it: a material is not
   /// there, or shells cannot have it.
   bool read(const ModelPart& part, const SectionShell& section, bool lobatto, ShellPart& out);
-  /// The same of shells with layers of their own, which stand instead of those of their part.
+  /// The same for shells with layers of their own, instead of those of their part.
   bool read(const ModelPart& part, const ModelLayup& layup, ShellPart& out);
   /// Null: shells cannot have it.
   std::shared_ptr<StrengthLaw> law_of(Id mid) const;
 
  private:
-  /// Where the materials of layers stand.
+  /// Location of the materials of layers.
   struct Owner {
     const Entry& card;
     const char* field;
@@ -49,7 +49,7 @@ class LayerReader {
   std::map<Id, const IntegrationShell*> rules_;
 };
 
-/// Rules of a part, with what its layers say.
+/// Rules of a part, with those of its layers.
 FailureRules rules_of_layers(const ShellPart& part, FailureRules rules);
 
 }  // namespace courant

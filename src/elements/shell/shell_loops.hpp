@@ -18,7 +18,7 @@ namespace courant {
 struct ShellMesh {
   const Real *x[3], *v[3], *w[3];  ///< of nodes: place at the end of the step [L], velocity and angular
                                    ///< velocity through it [L/T], [1/T]
-  const Index* corner[4];          ///< by element: its nodes; of triangles the last is not looked at
+  const Index* corner[4];          ///< by element: its nodes; of triangles the last is ignored
 };
 
 /// Arrays over the elements of a group, in the axes of each element, which turn with it. The loops touch the
@@ -30,7 +30,7 @@ struct ShellState {
   int points = 2;
   /// Of each: height over half the thickness, weight (sum 1).
   Real zeta[most_in_plane * most_points], share[most_in_plane * most_points];
-  /// Of point p: xx yy zz xy yz zx at 6 p; zz, which is 0, is not looked at. [M/LT2]
+  /// Of point p: xx yy zz xy yz zx at 6 p; zz, which is 0, is ignored. [M/LT2]
   Real* stress[6 * most_in_plane * most_points];
   /// Generalised forces on vx vy vz wx wy, null for triangles, behind them, of shells with warp,
   /// moments against drilling, of each corner; with 2 x 2 points these alone.

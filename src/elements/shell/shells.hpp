@@ -43,7 +43,7 @@ struct ShellPart {
   /// What a group of shells is made of: this for -1, else one of `layups`.
   const ShellPart& of(Index layup) const;
   const StrengthLaw& law_of(std::size_t layer) const { return laws.empty() ? *law : *laws[layer]; }
-  bool has_axes() const;  ///< some law knows directions
+  bool has_axes() const;  ///< some law has directions
   Real density() const;   ///< mean over the thickness [M/L3]
 };
 

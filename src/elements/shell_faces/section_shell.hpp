@@ -25,7 +25,7 @@ struct SectionShell : Entry {
   Real angle(int layer) const;  ///< ICOMP 1 [degrees]
 };
 
-/// The sections of shells, and what *PART_COMPOSITE says instead of one.
+/// The sections of shells, or *PART_COMPOSITE instead of one.
 class ShellSections {
  public:
   ShellSections(const Deck& deck, const Model& model);

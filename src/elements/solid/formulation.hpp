@@ -36,7 +36,7 @@ struct SolidFormulation {
   bool linear_dilatation = false;  ///< SolidControl::dilatation counts
 };
 
-/// In the order of their first ELFORM, whatever files are linked first.
+/// In the order of their first ELFORM, independent of the order of linking.
 std::vector<SolidFormulation>& solid_formulations();
 
 /// Nothing of it is inlined: files of loops are compiled with flags of their own.

@@ -17,7 +17,7 @@ class StiffnessDamping;
 
 class FullPoints {
  public:
-  /// What a block of elements moves by, and answers with. Stress and tensors of `state` are not looked at.
+  /// The motion of a block of elements and its forces. Stress and tensors of `state` are ignored.
   struct BlockOfSolids {
     const SolidMesh& mesh;
     const SolidControl& control;

@@ -37,7 +37,7 @@ class NodalPressure {
   /// Behind the law: the same of the new stress; not with an equation of state.
   void work(const ElementBlock& block, const SolidState& state, SolidScratch& scratch,
             const Scratch& own) const;
-  /// Behind the forces, once it is known who has failed. `erosion`: null where nothing can.
+  /// Behind the forces, once failed elements are known. `erosion`: null where nothing can fail.
   void keep(const ElementBlock& block, const SolidState& state, const Erosion* erosion) const;
 
   /// Makes it, with the passes before and behind that one.

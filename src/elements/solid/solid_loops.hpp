@@ -25,7 +25,7 @@ struct SolidState {
   /// stress. Else `forces` does, and counts it apart.
   bool heats = false;
   const Real *V0, *rho0;  ///< reference volume and density [L3], [M/L3]
-  Real* internal_energy;  ///< the work of stress is added; null: not asked for [ML2/T2]
+  Real* internal_energy;  ///< the work of stress is added; null: not requested [ML2/T2]
   Real *hourglass_energy, *bulk_viscosity_energy;  ///< what they took is added [ML2/T2]
   /// Of mode m in direction k at [3 m + k]; null: QM is 0, or elements have several points. [ML/T2]
   Real* hourglass_force[12]{};

@@ -47,7 +47,7 @@ class SolidPressure {
 
   /// Behind `strain`, before the law: leaves the deviator in the stress, energy and pressure in `own`, and
   /// the sound speed that q is to be made of in `scratch`. `energy`: internal, of the elements [ML2/T2];
-  /// `memory`: what the law remembers of them, null where it does not.
+  /// `memory`: memory of the law for them, null if it has none.
   void split(const ElementBlock& block, const SolidState& state, const Real* energy, Real* memory,
              SolidScratch& scratch, Scratch& own) const;
   /// Behind q, before the law.

@@ -1,5 +1,5 @@
 #pragma once
-// Control cards about something that a scene may not contain: then what they ask for has no effect.
+// Control cards about physics that a scene may not contain: they then have no effect.
 #include <map>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct ControlledPhysics {
   std::vector<const char*> brought_by;  ///< beginnings of the keywords that bring it into a scene
 };
 
-/// nullptr where a card matters whatever the deck holds.
+/// nullptr for cards that matter in any deck.
 const ControlledPhysics* controlled_physics(const std::string& name);
 
 /// Keeps the faults of such cards until the whole deck has been read: only then is it known what it contains.

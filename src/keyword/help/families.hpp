@@ -1,5 +1,5 @@
 #pragma once
-// Keywords that Courant has no table for: what their names tell, so that a deck is refused with the reason.
+// Keywords without a table: the families of their names, so that a deck is refused with the reason.
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// What becomes of a keyword, told from its table: for lists, pages and docs/cannot_do.md.
+// Treatment of a keyword, from its table: for lists, pages and docs/cannot_do.md.
 #include <string>
 #include <vector>
 
@@ -19,7 +19,7 @@ struct KeywordSupport {
   KeywordState state = KeywordState::honoured;
   std::vector<std::string> refused;  ///< names of fields of which other values than the default are refused
   std::vector<std::string> limited;  ///< "FORM (0, 1)": fields that take some values only
-  std::vector<std::string> warned;   ///< fields that ask for output that is not there
+  std::vector<std::string> warned;   ///< fields that request missing output
 };
 
 KeywordSupport support_of(const KeywordSpec& spec);

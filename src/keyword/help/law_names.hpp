@@ -14,9 +14,9 @@ struct LawName {
   const char* name;    ///< "NULL"
 };
 
-/// The law that a keyword names in whole words, by number or name, with whatever options behind it:
-/// MAT_024_TITLE, MAT_ELASTIC_FLUID. `length` states how many characters of `keyword` name it. nullptr: none
-/// that is known here.
+/// The law that a keyword names in whole words, by number or name, with any options behind it: MAT_024_TITLE,
+/// MAT_ELASTIC_FLUID. `length` states how many characters of `keyword` name it. nullptr: none that is known
+/// here.
 const LawName* find_law(std::string_view keyword, std::size_t* length = nullptr);
 
 /// Whether the second word of a *MAT or *EOS keyword is a number: MAT_295, EOS_021, MAT_S01, MAT_077_H.

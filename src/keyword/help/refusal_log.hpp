@@ -1,5 +1,5 @@
 #pragma once
-// A keyword that is not supported is reported once, at the first location, with the number of further places.
+// A keyword that is not supported is reported once, at the first location, with the number of further lines.
 #include <map>
 #include <string>
 
@@ -11,7 +11,7 @@ class RefusalLog {
  public:
   /// True where `name` comes for the first time: then its message must be the next one in `diagnostics`.
   bool is_first(const std::string& name, const Diagnostics& diagnostics);
-  /// Adds the number of further places to the messages, once the deck has been read.
+  /// Adds the number of further lines to the messages, once the deck has been read.
   void close(Diagnostics& diagnostics) const;
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
-// *CASE, *CASE_BEGIN_n, *CASE_END_n: one deck, several runs. They are looked for in the text, before anything
-// is read: each run then reads the deck with the lines of the others as comments, so that places stay.
+// *CASE, *CASE_BEGIN_n, *CASE_END_n: one deck, several runs. They are searched in the text before the deck is
+// read: each run then reads the deck with the lines of the others as comments, so that line numbers do not
+// change.
 #include <functional>
 #include <optional>
 #include <set>

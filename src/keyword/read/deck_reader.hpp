@@ -71,7 +71,7 @@ class DeckReader {
   void read_includes(const File& file, std::size_t line);
   void read_include_paths(const File& file, std::size_t line, bool relative_to_deck);
   void read_include_transform(const File& file, std::size_t line, const KeywordLine& keyword);
-  /// `keyword`: who asks for the file, for messages.
+  /// `keyword`: the keyword that names the file, for messages.
   void include(const std::string& name, const File& from, std::size_t line, const Conversion& conversion,
                const char* keyword);
   std::shared_ptr<SourceText> load_once(const std::string& path);

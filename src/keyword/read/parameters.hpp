@@ -1,5 +1,6 @@
 #pragma once
-// *PARAMETER and its kin: names for integers, reals and texts. Names do not distinguish upper and lower case.
+// *PARAMETER and similar keywords: names for integers, reals and texts. Names do not distinguish upper and
+// lower case.
 #include <cstddef>
 #include <deque>
 #include <functional>
@@ -43,7 +44,7 @@ class Parameters {
     std::string origin{};  ///< "&width is 2.0, defined at deck.k:21"; empty for an expression
     bool failed = false;
     std::string error{}, hint{};  ///< if failed; both may be empty where the definition had its error before
-    std::size_t at = 0;           ///< place of the error in the text
+    std::size_t at = 0;           ///< position of the error in the text
   };
 
   explicit Parameters(const ReadOptions& options);

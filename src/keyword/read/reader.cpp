@@ -163,7 +163,7 @@ const Families& DeckReader::families() {
 bool DeckReader::read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword) {
   const std::string& name = keyword.name;
   if (name == "END" || name == "COMMENT") return true;
-  if (name.rfind("CASE", 0) == 0) {  // who runs cases reads the deck without these (cases.hpp)
+  if (name.rfind("CASE", 0) == 0) {  // runs of cases read the deck without these (cases.hpp)
     if (refusals_.is_first(name, diagnostics_))
       diagnostics_.error(place(file, line),
                          fmt::format("*{}: cases count where the deck itself has some", name),

@@ -1,7 +1,7 @@
 #pragma once
 // The fast path through tables of nodes and elements, where a deck of millions of lines spends its time: an
 // ordinary line goes from its characters to the numbers of an entry at once. Any other line (a parameter, a
-// fault, a value that needs a word) is left to CardReader, which knows every case.
+// fault, a value that needs a word) is left to CardReader, which handles every case.
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -30,7 +30,7 @@ class TableLines {
     FieldType type = FieldType::skip;
     Check check = Check::any;
     bool required = false, zero_is_standard = true;
-    bool any_value = true;  ///< whatever its value, nothing is to be said
+    bool any_value = true;  ///< no message for any value
     Real standard = 0;
     Allowed allowed;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// What discrete beams (ELFORM 6) answer: six springs and dampers, along and about their axes r, s, t.
+// Forces of discrete beams (ELFORM 6): six springs and dampers, along and about their axes r, s, t.
 #include <algorithm>
 #include <array>
 #include <map>

@@ -14,9 +14,9 @@ struct SpringMotion {
   Real change = 0;   ///< of the stretch, over the last step [L]
 };
 
-/// What it answers; of torsional ones forces are moments [ML2/T2].
+/// Its results; of torsional ones forces are moments [ML2/T2].
 struct SpringAnswer {
-  Real force = 0;      ///< > 0 pulls the ends together [ML/T2]
+  Real force = 0;      ///< > 0: tension between the ends [ML/T2]
   Real stiffness = 0;  ///< largest slope over stretches nearby, for the step [M/T2]
   Real damping = 0;    ///< largest slope over rates nearby [M/T]
 };

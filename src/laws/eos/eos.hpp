@@ -1,7 +1,7 @@
 #pragma once
 // Equations of state p = A(mu) + B(mu) E with mu = rho/rho0 - 1 and E the internal energy per reference
 // volume. A law is a small struct with A, B and their derivatives; one file per law registers it with its
-// card, and nothing else is edited. Laws know no particles, elements or world.
+// card; nothing else is edited. Laws do not depend on particles, elements or world.
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -17,19 +17,19 @@
 
 namespace courant {
 
-/// Points of one material that a law is asked for at once, as plain arrays. [M/LT2], [-]
+/// Points of one material that a law evaluates at once, as plain arrays. [M/LT2], [-]
 struct EosBlock {
   Index count = 0;
   const Real* mu = nullptr;  ///< rho/rho0 - 1
   Real *A = nullptr, *dA = nullptr;
-  Real *B = nullptr, *dB = nullptr;  ///< null: not asked for
-  /// What a law remembers of each point (EosLaw::memory), which is brought up to date; null: as at the start.
+  Real *B = nullptr, *dB = nullptr;  ///< null: not requested
+  /// Memory of a law for each point (EosLaw::memory), which is updated; null: as at the start.
   Real* memory = nullptr;
 };
 
-/// A law that remembers the greatest compression of a point: A(mu, most), dA(mu, most), and stiffness(mu,
-/// most), dp/dmu of the steepest path from there, which the sound speed is made of. `memory` is the name of
-/// the field.
+/// A law with a memory of the greatest compression of a point: A(mu, most), dA(mu, most), and stiffness(mu,
+/// most), dp/dmu of the steepest path from there, which gives the sound speed. `memory` is the name of the
+/// field.
 template <class Law>
 concept RemembersCompression = requires {
   Law::memory;
@@ -40,29 +40,28 @@ class EosLaw {
  public:
   virtual ~EosLaw() = default;
   virtual std::string name() const = 0;
-  /// A and dA/dmu of a block, and B and dB/dmu where they are asked for. Of a law with a memory dA/dmu is
-  /// that of the steepest way on.
+  /// A and dA/dmu of a block, and B and dB/dmu where they are requested. For a law with a memory dA/dmu is
+  /// that of the steepest further path.
   virtual void evaluate(const EosBlock& block) const = 0;
-  /// Name of the number that the law remembers of each point, the greatest mu so far; null: none.
+  /// Name of the memory of each point, the greatest mu so far; null: none.
   virtual const char* memory() const { return nullptr; }
   Real memory_at_start() const { return 1 / V0 - 1; }  ///< [-]
-  // Where a law has a memory, these are of a point that has not come here before.
+  // For a law with a memory, these are for a point without a greater compression before.
   virtual Real pressure(Real mu, Real E) const = 0;  ///< [M/LT2]
   virtual Real slope(Real mu, Real E) const = 0;     ///< dp/dmu at constant E [M/LT2]
   /// c^2 = dp/drho at constant entropy = (dp/dmu + B p / (1 + mu)^2) / rho0, from dE = -p dv with v = 1/(1 +
   /// mu). [L2/T2]
   virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;
   virtual bool uses_energy() const = 0;
-  virtual Real mu_limit() const = 0;  ///< the law holds below; infinite if it always holds
-  /// The same law for a material with another reference density than 1; nullptr where that makes no
-  /// difference.
+  virtual Real mu_limit() const = 0;  ///< upper limit of validity of the law; infinite: none
+  /// The same law for a material with another reference density than 1; nullptr where it is the same.
   virtual std::shared_ptr<EosLaw> at_density(Real rho0) const = 0;
   Real E0 = 0;           ///< initial internal energy per reference volume [M/LT2]
   Real V0 = 1;           ///< initial relative volume rho0/rho
   Real specific_E0 = 0;  ///< added to E0, times the reference density [L2/T2]
 };
 
-/// A value that a law must give, computed by hand from its formula: the generic test checks it.
+/// A value that a law must return, computed by hand from its formula, for the generic test.
 struct EosReference {
   std::string deck;  ///< the keyword's cards, as in a deck
   Real mu, E, p;
@@ -74,7 +73,7 @@ struct EosEntry {
   std::vector<EosReference> references;
   /// Every law of this kind in a deck. The model has the curves.
   std::function<std::vector<std::pair<Id, std::shared_ptr<EosLaw>>>(const Deck&, const Model&)> all;
-  /// Checks of its cards what the table of the keyword cannot check.
+  /// Checks of its cards beyond those of the table of the keyword.
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 
@@ -139,7 +138,7 @@ class EosLawOf : public EosLaw {
   struct Cold {
     Real A, dA, stiffness;
   };
-  /// Without energy, of a point that was never more compressed.
+  /// Without energy, for a point that was never more compressed.
   Cold first(Real mu) const {
     if constexpr (RemembersCompression<Law>) {
       const Real most = std::max(mu, memory_at_start());
@@ -159,10 +158,9 @@ class EosLawOf : public EosLaw {
 };
 
 /// Card must have members eosid and functions law(), e0(), v0(), and may have specific_e0(); law() takes the
-/// model where it needs its curves. A law whose
-/// formula holds the reference density gives A and dA for the density 1 and has at_density(rho0); one that
-/// ends somewhere in compression has mu_limit(). The card may have check(deck, diagnostics), or with the
-/// model between both.
+/// model where it needs its curves. A law whose formula contains the reference density has A and dA for the
+/// density 1 and at_density(rho0); one with a limit in compression has mu_limit(). The card may have
+/// check(deck, diagnostics), or with the model between both.
 template <class Card>
 struct RegisterEos {
   RegisterEos(std::string equation, std::string source, std::vector<EosReference> references,

@@ -43,7 +43,7 @@ class FailingLaw : public StrengthLaw {
   std::pair<Real, Real> volume_range() const override { return of_->volume_range(); }
 
  protected:
-  /// The block as `of` knows it.
+  /// The block in the form of `of`.
   PointBlock of_law(const PointBlock& block) const {
     PointBlock out = block;
     out.history = block.history.first(kept_);

@@ -13,7 +13,7 @@ struct MatNull : MatNullFields {
   /// For elements; particles find the viscous stress by sums over pairs. Its
   /// pressure does not fall below PC.
   std::shared_ptr<StrengthLaw> law() const;
-  /// For shells and beams: RO, and the moduli that contact asks for.
+  /// For shells and beams: RO, and the moduli for contact.
   std::shared_ptr<StrengthLaw> coat() const;
 };
 

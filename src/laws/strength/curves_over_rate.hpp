@@ -21,7 +21,7 @@ struct CurvesOverRate {
   /// stresses by `area`.
   CurvesOverRate(const Model& model, Id id, Real length = 1, Real area = 1);
   bool has_rates() const { return curves.size() > 1; }
-  /// What `of(k)` says of the curves k beside a rate.
+  /// Value of `of(k)` for the curves k beside a rate.
   template <class Of>
   Real between(Real rate, const Of& of) const {
     const auto above = std::upper_bound(rates.begin(), rates.end(), rate);

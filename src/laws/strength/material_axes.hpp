@@ -1,5 +1,5 @@
 #pragma once
-// Laws that know directions: how a deck says where they lie, and the fields of the cards that say so.
+// Laws with directions: their definition in a deck, and the fields of the cards.
 #include <array>
 #include <string>
 #include <vector>
@@ -23,7 +23,7 @@ struct MaterialAxes {
   Vec beside = Vec::Zero();  ///< [-]
 };
 
-/// Whether cards of a keyword tell directions.
+/// Whether cards of a keyword define directions.
 bool tells_directions(const std::string& keyword);
 
 /// In the plane of a shell. Nothing where the rule names no direction there.
@@ -46,7 +46,7 @@ struct SheetStiffness {
   Real aa = 0, bb = 0, ab = 0;
   /// EA, EB, and Poisson's ratio of a stress along b for the strain along a.
   SheetStiffness(Real EA, Real EB, Real PRBA);
-  /// Largest stiffness under one strain, in whatever direction: the bound of the step. `G`: in the plane.
+  /// Largest stiffness under one strain, in any direction: the bound of the step. `G`: in the plane.
   Real largest(Real G) const;
 };
 

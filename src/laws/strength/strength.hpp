@@ -1,6 +1,6 @@
 #pragma once
-// Strength: the stress that a material answers a strain rate with. One file per law registers it with its
-// card, and nothing else is edited.
+// Strength: the stress of a material at a strain rate. One file per law registers it with its card; nothing
+// else is edited.
 #include <array>
 #include <functional>
 #include <limits>
@@ -19,52 +19,53 @@ namespace courant {
 
 struct MaterialAxes;
 
-/// What a law keeps for each point from step to step, 0 at the start: a number, or with six components a
-/// symmetric tensor xx yy zz xy yz zx, which comes to the law turned with the body as the stress does.
+/// A history variable that a law stores for each point, 0 at the start: a number, or with six components a
+/// symmetric tensor xx yy zz xy yz zx, which is rotated with the body before the law gets it, as the stress
+/// is.
 struct HistoryVariable {
   std::string name, dimension;
   int components = 1;
   bool is_tensor() const { return components == 6; }
 };
 
-/// Name of a history number that becomes 1 beside elements that are deleted.
+/// Name of a history variable that becomes 1 beside deleted elements.
 inline constexpr const char* beside_deleted = "beside_deleted_elements";
 
-/// Name of a history number that elements lay at the start: the cube root of the volume of a solid or
+/// Name of a history variable that elements set at the start: the cube root of the volume of a solid or
 /// particle, the square root of the area of a shell. 0: no element. [L]
 inline constexpr const char* element_size = "element_size";
 
-/// Failure strains from here on say that nothing fails.
+/// Failure strains of this size or larger mean no failure.
 inline constexpr Real never_fails = 1e10;
 
-/// A law read from the deck, or made for a test. It holds no state: that is in the block.
+/// A law read from the deck, or made for a test. It has no state: the state is in the block.
 class StrengthLaw {
  public:
   virtual ~StrengthLaw() = default;
-  /// Advances a block by its dt; with dt = 0 it gives the sound speed only.
+  /// Advances a block by its dt; with dt = 0 it computes the sound speed only.
   virtual void update(const PointBlock& block) const = 0;
-  /// The same in plane stress, zz = 0 before and after: rates zz of the block are not looked at, the one that
-  /// keeps the stress 0 is left in `rate_zz`, one for each point [1/T]. Unless a law knows better, it is
-  /// found by trial steps of `update` (plane_stress.cpp). Only of laws that give all of the stress.
+  /// The same in plane stress, zz = 0 before and after: rates zz of the block are ignored; those that keep
+  /// the stress 0 are returned in `rate_zz`, one for each point [1/T]. Unless a law overrides this, they are
+  /// found by trial steps of `update` (plane_stress.cpp). Only for laws that compute the whole stress.
   virtual void update_in_plane_stress(const PointBlock& block, Real* rate_zz) const;
   virtual std::vector<HistoryVariable> history() const { return {}; }
   /// The law gives the deviator only: pressure comes from an equation of state that the part must have.
   virtual bool deviator_only() const { return false; }
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
-  /// How the directions a, b lie by which the law tells its rates and stresses (material_axes.hpp); null: it
-  /// has none. Shells turn to them; in solids a law turns itself, by its history `material_directions`.
+  /// The directions a, b of the rates and stresses of the law (material_axes.hpp); null: none. Shells rotate
+  /// to them; in solids the law itself rotates, by its history `material_directions`.
   virtual const MaterialAxes* axes() const { return nullptr; }
-  /// Waves can be faster than at rest, as `sound_speed` of a block tells: shells respect it.
+  /// Waves can be faster than at rest; shells then use `sound_speed` of a block.
   virtual bool stiffens() const { return false; }
-  /// Whether shells and beams can have it; of laws with directions shells alone can, or solids alone.
+  /// Whether shells and beams can have it; laws with directions are for shells only, or for solids only.
   virtual bool in_sheets() const { return true; }
-  /// Largest stiffness of a sheet in plane stress whose one side is held: E/(1 - nu^2), at rest. [M/LT2]
+  /// Largest stiffness of a sheet in plane stress with one side fixed: E/(1 - nu^2), at rest. [M/LT2]
   virtual Real plane_modulus() const;
-  /// Value of its history `failure_variable` from which on a point has failed; infinity: it never does. [-]
+  /// Value of its history `failure_variable` at which a point fails; infinity: never. [-]
   virtual Real failure_limit() const { return std::numeric_limits<Real>::infinity(); }
   virtual std::string failure_variable() const { return "plastic_strain"; }
-  /// When all points fail; infinity: never by that. [T]
+  /// Time at which all points fail; infinity: never by time. [T]
   virtual Real failure_time() const { return std::numeric_limits<Real>::infinity(); }
   /// Steps of an element below which it fails: the step itself [T], and its ratio to the first one. [-]
   struct LeastStep {
@@ -73,7 +74,7 @@ class StrengthLaw {
   virtual LeastStep least_step() const { return {}; }
   /// V/V0 below and above which an element fails. [-]
   virtual std::pair<Real, Real> volume_range() const { return {0, std::numeric_limits<Real>::infinity()}; }
-  /// Pressure of the equation of state is cut off below this. [M/LT2]
+  /// Lower limit of the pressure of the equation of state. [M/LT2]
   virtual Real pressure_cutoff() const { return -std::numeric_limits<Real>::infinity(); }
   /// Of a fluid, for the stable step. [M/LT]
   virtual Real viscosity() const { return 0; }
@@ -84,8 +85,7 @@ class StrengthLaw {
   int failing_layers = 0;  ///< points through the thickness that must fail to delete a shell; 0: all
 };
 
-/// A step that a law must answer with this stress, computed by hand from its formula: the generic test
-/// checks.
+/// A step and the stress that a law must return, computed by hand from its formula, for the generic test.
 struct StrengthReference {
   std::string deck;                   ///< the keyword's cards, as in a deck
   std::array<Real, 6> strain;         ///< D dt, of the tensor [-]
@@ -100,16 +100,16 @@ struct StrengthEntry {
   std::vector<StrengthReference> references;
   /// Every law of this kind in a deck, by the id of its material. The model has the curves and tables.
   std::function<std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>>(const Deck&, const Model&)> all;
-  /// Checks of its cards what the table of the keyword cannot check.
+  /// Checks of its cards beyond those of the table of the keyword.
   std::function<void(const Deck&, const Model&, Diagnostics&)> check;
 };
 
-/// In the order of keywords, whatever files are linked first.
+/// In the order of keywords, independent of the order of linking.
 std::vector<StrengthEntry>& strength_registry();
 void add_to_strength_registry(StrengthEntry entry);
 
-/// What cards beside that of a material make of its law: damage and failure. Returns the law itself where no
-/// card is for the material.
+/// Damage and failure added to a law by cards besides that of its material. Returns the law itself if no card
+/// is for the material.
 using LawAddition = std::function<std::shared_ptr<StrengthLaw>(const Deck&, const Model&, Id mid,
                                                                std::shared_ptr<StrengthLaw> law)>;
 std::vector<LawAddition>& law_additions();
@@ -119,7 +119,7 @@ std::shared_ptr<StrengthLaw> with_additions(const Deck& deck, const Model& model
 /// Card must have a member mid and a function law(), a std::shared_ptr<StrengthLaw> made from valid cards,
 /// and may have check(deck, diagnostics), both with the model as last but one or only argument where they
 /// need its curves; with laws that are `deviator_only` a static constexpr bool of that name, so that messages
-/// offer the keyword only where it serves.
+/// suggest the keyword only where it is valid.
 template <class Card>
 struct RegisterStrength {
   RegisterStrength(std::string equation, std::string source, std::vector<StrengthReference> references,

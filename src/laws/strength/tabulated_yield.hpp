@@ -51,7 +51,7 @@ struct TabulatedYield {
   }
 
  private:
-  /// Softening goes on beyond the last point of a curve, down to no strength.
+  /// Softening continues beyond the last point of a curve, down to zero strength.
   bool vanishes() const {
     return std::any_of(curves.begin(), curves.end(),
                        [](const IndexedPieces& c) { return !c.empty() && c.slope(c.size() - 1) < 0; });

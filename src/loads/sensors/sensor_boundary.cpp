@@ -118,7 +118,7 @@ struct MeasuredMotion {
 
 std::vector<MeasuredMotion> motions_with(Id number, const Deck& deck, const Model& model) {
   std::vector<MeasuredMotion> out;
-  Diagnostics unused;  // who drives by them tells
+  Diagnostics unused;  // the pass that drives by them reports
   for (PrescribedMotion& motion : prescribed_motions(deck, model, unused)) {
     if (motion.id != number) continue;
     MeasuredMotion one{std::move(motion)};

@@ -15,7 +15,7 @@ std::optional<Vec> force_of_contact(const World& world, Id id);
 /// On a rigid wall, in the step before; nothing: there is no such wall. [ML/T2]
 std::optional<Vec> force_on_wall(const World& world, Id id);
 
-/// Whether a sensor asks for forces of *BOUNDARY_SPC.
+/// Whether a sensor needs forces of *BOUNDARY_SPC.
 bool measures_supports(const Deck& deck);
 
 /// Of a force and a moment one component, or the magnitude of one.

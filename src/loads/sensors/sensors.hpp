@@ -13,11 +13,11 @@
 
 namespace courant {
 
-/// What a switch looks at.
+/// The quantity of a switch.
 struct Sensor {
   Id id = 0;
   std::function<Real(const World&, const Clock&)> value;
-  /// Whether who exerts the force is in the world; null: nobody is needed.
+  /// Whether the source of the force is in the world; null: none is needed.
   std::function<bool(const World&)> there = nullptr;
   Entry card{};  ///< for messages
 };
@@ -108,7 +108,7 @@ class SensorBoard : public Impact, public Restartable {
   std::int64_t looked_at_ = -1;    ///< cycle
 };
 
-/// Once all is built: forces that nobody exerts are errors.
+/// After the set-up: forces without a source are errors.
 void check_sensors(const Deck& deck, const World& world, Diagnostics& diagnostics);
 
 /// That of the world, which the first call makes and adds to its passes; null where the deck has no sensors.

@@ -20,7 +20,7 @@ struct BodyNode {
 struct RigidWallPenalty {
   WallBodies bodies{};
   Real scale = 0;             ///< |RWPNAL| of *CONTROL_CONTACT; 0: bodies go through [-]
-  bool of_all_nodes = false;  ///< RWPNAL < 0: asked for nodes that deform, too
+  bool of_all_nodes = false;  ///< RWPNAL < 0: also requested for nodes that deform
 };
 
 /// The springs of one wall: k d at each node, d its depth behind the surface, along the normal. All of a body

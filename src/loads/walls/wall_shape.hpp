@@ -5,9 +5,9 @@
 
 namespace courant {
 
-/// What a rigid wall looks like, about where it is at t = 0: a plane, or a body that points stay outside of.
-/// All are convex: what is before the plane through the nearest position of the surface, at right angles to
-/// the normal there, is outside.
+/// The shape of a rigid wall, relative to its position at t = 0: a plane, or a body that points stay outside
+/// of. All are convex: what is before the plane through the nearest position of the surface, at right angles
+/// to the normal there, is outside.
 struct WallShape {
   enum class Kind { plane, prism, cylinder, sphere };
   Kind kind = Kind::plane;

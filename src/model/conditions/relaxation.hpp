@@ -19,14 +19,14 @@ struct Relaxation {
   Real ramp = 0;                                     ///< loads of this phase alone change until then [T]
 };
 
-/// What a deck asks for: by IDRFLG, or by SIDR 1 or 2 of a curve that a load or a motion has. Refused by
+/// The request of a deck: by IDRFLG, or by SIDR 1 or 2 of a curve that a load or a motion has. Refused by
 /// name: IDRFLG other than -1, 0, 1, IRELAL 1, and particles; these with a warning where only SIDR 2 asks.
 Relaxation relaxation_of(const Deck& deck, const Model& model, bool has_particles, Diagnostics& diagnostics);
 
 /// TSSFDR, or TSSFAC.
 Real relaxation_tssfac(const Deck& deck, Real tssfac);
 
-/// Whether the curve of such a field acts in that phase alone, whatever its SIDR.
+/// Whether the curve of such a field acts in that phase only, for any SIDR.
 bool is_of_relaxation(std::string_view field);
 
 /// Calls of(entry, field, curve id) for each curve that a load, a motion, damping or a rigid wall has.

@@ -14,7 +14,7 @@ namespace {
 struct ConvertedCurve {
   DefineCurveCard* card = nullptr;
   Real abscissa = 1, ordinate = 1;
-  Entry user{};  ///< who told the factors
+  Entry user{};  ///< the entry that gave the factors
   bool used = false;
 };
 

@@ -6,7 +6,7 @@
 
 namespace courant {
 
-/// *PART_COMPOSITE: shells whose layers stand with their part; it needs no section.
+/// *PART_COMPOSITE: shells whose layers are defined with their part; it needs no section.
 struct PartCompositeCard : PartCard, PlyRows {
   int elform = 0, thshel = 0;
   Real shrf = 1, nloc = 0, marea = 0;

@@ -6,7 +6,7 @@
 
 namespace courant {
 
-/// *ELEMENT_SHELL_COMPOSITE and its like: shells whose layers stand with each of them.
+/// *ELEMENT_SHELL_COMPOSITE and similar keywords: shells whose layers are defined with each of them.
 struct ElementShellCompositeCard : ElementShellCard, PlyRows {
   std::vector<Id> plyid{};
   bool is_long() const { return name % 2 == 1; }

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Where the entity with an id stands. Ids without wide gaps, the usual case, are looked up in a plain table;
+/// Index of the entity with an id. Ids without wide gaps, the usual case, are looked up in a plain table;
 /// others in a hash table, which takes ten times the memory.
 class IdIndex {
  public:

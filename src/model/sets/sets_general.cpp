@@ -124,7 +124,7 @@ SetResolver::Found SetResolver::general(SetKind kind, const SetCard& card) {
     std::set_difference(out.begin(), out.end(), found->begin(), found->end(), std::back_inserter(next));
     out = std::move(next);
   }
-  return out;  // sorted by who asks
+  return out;  // sorted by the caller
 }
 
 SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::string_view word,

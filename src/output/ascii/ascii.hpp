@@ -62,13 +62,13 @@ struct HistoryPositions {
 /// All histories of a run, each at its own interval.
 class Histories {
  public:
-  /// Opens the files that were asked for: empty ones, or those of an earlier run, cut back to where they were
-  /// then. Throws OutputError.
+  /// Opens the requested files: empty ones, or those of an earlier run, cut back to where they were then.
+  /// Throws OutputError.
   Histories(const std::filesystem::path& dir, HistoryRequests requests,
             const HistoryPositions* resume = nullptr);
   /// What of the earlier run's files is missing, a line each.
   const std::vector<std::string>& lost() const { return lost_; }
-  /// When what was written last. `t`: where the run goes on [T]
+  /// Times of the last writes. `t`: time at which the run continues [T]
   void keep(Archive& archive, Real t);
   /// How long the files are, with what `finish` would still write. Belongs to the thread that writes.
   HistoryPositions positions() const;

@@ -15,7 +15,7 @@ std::string line(std::string label, Real value) {
   return fmt::sprintf(" %s%14.5E\n", label, value);
 }
 
-/// LS-DYNA's words for who controls the step, from the text of TimeLimit.
+/// LS-DYNA's words for the source of the step, from the text of TimeLimit.
 std::string controller(const std::string& who) {
   long long particle = 0;
   if (std::sscanf(who.c_str(), "sph particle %lld", &particle) == 1)

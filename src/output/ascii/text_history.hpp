@@ -23,7 +23,7 @@ struct HistoryTitles {
 };
 
 struct TextHistory {
-  std::string name{};  ///< of the file; *DATABASE_ and this in capitals ask for it
+  std::string name{};  ///< of the file; *DATABASE_ and this in capitals request it
   /// One state; first_potential: potential energy at the first state [ML2/T2].
   std::function<std::string(const Sample& sample, Real first_potential)> text{};
   /// The numbers of one state for binout; none: text alone.

@@ -27,7 +27,7 @@ struct FieldWriterOptions {
   std::vector<std::string> extra{};  ///< besides these; names that the run does not have are passed over
   bool float64 = false;              ///< reals with 64 bits, not 32
   Real eps = 0;   ///< reals may be off by this part of the range of their array at that time [-]
-  Real epsx = 0;  ///< places may be off by this part of the smallest h [-]
+  Real epsx = 0;  ///< error bound of positions, as a part of the smallest h [-]
   Compression compression{};
   /// Shells without their forces, and a state whose shells are as before names the file from before.
   bool sparse_shells = false;
@@ -36,7 +36,7 @@ struct FieldWriterOptions {
 /// Names that FieldWriterOptions::fields may hold.
 std::vector<std::string> particle_array_names(const World& world);
 
-/// What the field files of one time hold: a copy, so that the world may go on.
+/// The content of the field files of one time: a copy, so that the run can continue.
 struct FieldState {
   int number = 0;
   Real t = 0;                           ///< [T]

@@ -455,7 +455,7 @@ class BodyBuilder {
   std::map<Id, const PartInertiaCard*> given_;
   std::map<Id, Index> world_node_;
   std::vector<Index> owner_;
-  std::vector<Real> of_elements_;  ///< mass of deformable elements at each node; empty: nobody asked
+  std::vector<Real> of_elements_;  ///< mass of deformable elements at each node; empty: not needed
   Real step_share_ = 1;
   std::set<Index> given_parts_;
   std::set<Id> checked_;  // one material may serve several parts

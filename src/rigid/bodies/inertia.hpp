@@ -35,7 +35,7 @@ using Quadrilateral = std::array<Vec, 4>;  ///< corners in order; a triangle rep
 /// normal to the angular momentum.
 void add_shell(const Quadrilateral& x, const Quadrilateral& v, Real t, MassIntegrals& sums);
 
-using Hexahedron = std::array<Vec, 8>;  ///< corners in LS-DYNA's order; nodes may stand several times
+using Hexahedron = std::array<Vec, 8>;  ///< corners in LS-DYNA's order; nodes may be repeated
 
 /// Adds a hexahedron of unit density, interpolated trilinearly between its corners, as are velocities v:
 /// three by three by three Gauss points, exact where its faces are not warped.

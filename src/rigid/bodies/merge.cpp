@@ -79,7 +79,7 @@ class MergeReader {
     if (a == b) return;
     const Entry *of_a = switched_alone(deck_, id_of(a)), *of_b = switched_alone(deck_, id_of(b));
     const bool a_is_made = of_a && !is_rigid_material(a), b_is_made = of_b && !is_rigid_material(b);
-    if (!a_is_made && !b_is_made) return;  // who builds bodies refuses that
+    if (!a_is_made && !b_is_made) return;  // the builder of bodies refuses that
     const bool b_leads = a_is_made && (!b_is_made || b < a);
     const Index lead = b_leads ? b : a, part = b_leads ? a : b;
     const Entry& card = b_leads ? *of_a : *of_b;

@@ -145,7 +145,7 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
               Diagnostics& diagnostics);
   /// Lets a body take the velocities of `source`, which lives as long, in all directions that are not held.
   void drive(std::size_t body, const MotionSource& source);
-  /// Lets a body turn as `source` says, between two times.
+  /// Prescribes the rotation of a body by `source`, between two times.
   void turn(std::size_t body, const MotionSource& source, Real birth, Real death, const Entry& card);
   /// For contact with their faces. Refers to this object.
   WallBodies wall_bodies(World& world);
@@ -165,7 +165,7 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// Velocities and angular momenta times a factor, of bodies alone: their nodes get theirs with the next
   /// step.
   void slow_down(Real factor);
-  /// Velocity and angular velocity of each body, and of its nodes, whatever they were.
+  /// Sets velocity and angular velocity of each body, and of its nodes, independent of the old ones.
   void start_moving(const std::vector<std::array<Vec, 2>>& motion, World& world);
   bool any_moves() const;  ///< false: the passes have nothing to do and need not be listed
   const std::vector<RigidBody>& bodies() const { return bodies_; }

@@ -9,7 +9,7 @@ namespace courant {
 /// (omega_A.e_A - f), f the rate at which the line from A's position to B's turns about parallel axes, 0
 /// about others. So a carrier may turn, and what bearings pass to it is right.
 struct PlacedGears {
-  Vec arm_a, arm_b;  ///< from the centres to the axes' places
+  Vec arm_a, arm_b;  ///< from the centres to the positions of the axes
   Vec e_a, e_b;      ///< axes
   Vec across, t;     ///< the centre line across the axes [L], how B's position moves as it turns
   Real distance = 0;

@@ -12,7 +12,7 @@ namespace courant {
 /// follow from others, whose pivot all but vanishes, are left out: their unknown is 0.
 class JointMatrix {
  public:
-  /// Where entries other than 0 may stand: pairs of rows.
+  /// Positions of non-zero entries: pairs of rows.
   void arrange(Index rows, const std::vector<std::array<Index, 2>>& entries);
   void clear();                                   ///< all entries are 0
   void add(Index row, Index column, Real value);  ///< to an entry, and to the one opposite to it

@@ -1,5 +1,5 @@
 #pragma once
-// What a joint asks of two bodies, as equations c = 0 and how c changes as they move.
+// The conditions of a joint on two bodies, as equations c = 0 and the change of c as they move.
 #include <array>
 #include <cstddef>
 #include <vector>

@@ -23,7 +23,7 @@ class SpaceCells {
     }
     return key;
   }
-  /// Of the cell in which x stands. [L]
+  /// Of the cell of x. [L]
   Vec middle(const Vec& x) const { return size_ * ((x / size_).array().floor() + Real(0.5)).matrix(); }
 
  private:

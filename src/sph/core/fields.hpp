@@ -68,7 +68,7 @@ inline Field<Real>& pressure_plus_q(Particles& p) {
 inline Field<Real>& density_diffusion(Particles& p) {
   return p.fields.add<Real>({.name = "density_diffusion", .dimension = "M/L3T"});
 }
-/// Rate of density by volume control, as of its last look.
+/// Rate of density by volume control, of its last evaluation.
 inline Field<Real>& volume_rate(Particles& p) {
   return p.fields.add<Real>({.name = "volume_rate", .dimension = "M/L3T"});
 }
@@ -134,7 +134,7 @@ inline Field<Real>& drift_rate(Particles& p) {
 inline Field<Real>& pressure_before(Particles& p) {
   return p.fields.add<Real>({.name = "pressure_before", .dimension = "M/LT2", .restart = false});
 }
-/// How places changed in the last step besides the velocity
+/// Change of positions in the last step besides the velocity
 inline Field<Real>& drifted(Particles& p) {
   return p.fields.add<Real>({.name = "drifted", .dimension = "L/T", .components = 3, .exchange = true});
 }

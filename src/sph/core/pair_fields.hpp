@@ -1,5 +1,5 @@
 #pragma once
-// What the loops over pairs read and write of a scene, whatever way gradients come.
+// What the loops over pairs read and write of a scene, for any source of gradients.
 #include "sph/core/pair_loops.hpp"
 #include "sph/sph.hpp"
 

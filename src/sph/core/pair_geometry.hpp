@@ -47,7 +47,7 @@ class PairGeometry {
   }
   bool kept() const { return kept_; }
 
-  /// At the start of rates and forces: `numbers` for each partner. `threads`: who will work on which blocks.
+  /// At the start of rates and forces: `numbers` for each partner. `threads`: the blocks of each thread.
   void make_room_for_shares(Index numbers, const Shares& threads) {
     if (!once_) return;
     const Tasks& tasks = neighbours_->tasks();
@@ -58,7 +58,7 @@ class PairGeometry {
     shares_.grow_to(std::size_t(tasks.total()) * numbers);
   }
 
-  /// Blocks of a task are asked for in order, by one thread.
+  /// Blocks of a task are requested in order, by one thread.
   PairLists lists(Index begin, Index end) {
     const Index b = begin / block_size;
     PairLists out{.list = neighbours_->list(b),

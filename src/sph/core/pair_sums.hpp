@@ -50,7 +50,7 @@ COURANT_INLINE bool is_beyond(const Kernel& kernel, const PairArrays& a, const P
   return !any_less(r2, reach * reach);
 }
 
-/// Which of its entries a group looks at, and what the entry is.
+/// The entries that a group examines, and their content.
 template <bool UniformH>
 struct Entries {
   const ListSections at;

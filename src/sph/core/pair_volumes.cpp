@@ -33,7 +33,7 @@ void PairVolumes::set_ghosts(Index first, Index last, Real volume) {
   for (Field<Real>* field : fields_) std::fill(field->data() + first, field->data() + last, volume);
 }
 
-// The halo, too: its density does not change, so nobody works on it in between.
+// Also of the halo: its density does not change, so no pass writes it in between.
 void PairVolumes::fill(World& world) {
   const Particles& p = world.particles;
   const Real *m = p.m.data(), *rho = p.rho.data();

@@ -263,7 +263,7 @@ class Reader {
     return {e1, normal.cross(e1)};
   }
 
-  /// As with masses: per unit of depth, of which nobody knows in which unit it is.
+  /// As with masses: per unit of depth, whose unit is unknown.
   bool has_own_units(const Entry& card, const char* field) {
     if (dim_ == 3 || deck_.files[static_cast<std::size_t>(card.file)].conversion.units.length == 1)
       return true;

@@ -35,7 +35,7 @@ class Drift : public Relocation, public Refresh {
   void start(World& world, const Clock& clock) override;
   void block(World& world, const Clock& clock, Index begin, Index end) override;
   void finish(World& world, const Clock& clock) override;
-  /// Contact marks again who is near its walls.
+  /// Contact marks particles near its walls again.
   void refreshed(World& world, const Clock& clock, std::span<const Index> old_of_new) override;
 
  private:

@@ -24,7 +24,7 @@ struct DriftArrays {
   Real* filling;                  ///< sum_j V_j W_ij [-]
   Real* velocity_gradient[3][3];  ///< of each component: sum_j V_j (v_j - v_i) grad W_ij [1/T]
   Real* drift[3];                 ///< XSPH: sum_j m_j/rho_ij (v_j - v_i) W_ij [L/T]
-  const Real* drifted[3];         ///< by how much places changed besides the velocity in the last step [L/T]
+  const Real* drifted[3];         ///< change of positions besides the velocity in the last step [L/T]
   const Real* rho;                ///< of particle i alone
   Real* drhodt;
   Real* drift_rate;         ///< of the density [M/L3T]

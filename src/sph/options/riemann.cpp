@@ -126,7 +126,7 @@ class RiemannMass : public Force, public TimeLimit {
   RiemannArrays a_{};
 };
 
-/// Coefficients of artificial viscosity that a deck gives and nobody will use.
+/// Unused coefficients of artificial viscosity in a deck.
 template <class T>
 void warn_of_viscosity(const Deck& deck, Diagnostics& diagnostics) {
   constexpr Real off = 1e-9;

@@ -1,6 +1,5 @@
 #pragma once
-// The sums over pairs that turbulence models ask for; compiled once for each instruction set, as
-// pair_loops.hpp.
+// The sums over pairs for turbulence models; compiled once for each instruction set, as pair_loops.hpp.
 #include "sph/core/neighbour_lists.hpp"
 #include "sph/kernel/kernel_choice.hpp"
 

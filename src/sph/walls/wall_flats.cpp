@@ -1,4 +1,4 @@
-// Images of who sees nothing but one flat wall of a body that moves.
+// Images of particles beside one flat wall of a moving body only.
 #include <algorithm>
 #include <cmath>
 
@@ -69,7 +69,7 @@ void WallImages::add_flat_rate(Particles& p, Index i) const {
   Real rate = 0;
   for (const Index j : neighbours_->of_group(i / Neighbours::lanes)) {
     const Vec y = i == j ? Vec(x + at_end().shift_of_itself()) : in_the_middle(j), apart = x - y;
-    const Real there = std::max(flat.height(y), Real(0));  // who is behind is out of reach
+    const Real there = std::max(flat.height(y), Real(0));  // particles behind are out of reach
     if (apart.squaredNorm() + 4 * height * there >= reach2) continue;
     const Vec d = apart + 2 * there * flat.n, other = p.v.vec(j) - in_middle_->velocity(f, y);
     const Real approach = (u - other).dot(d) + 2 * flat.n.dot(other) * flat.n.dot(d);

@@ -152,7 +152,7 @@ class WallSupport : public Rate,
   int dim_;
   bool evolving_h_, any_moves_ = false;
   Real past_edges_ = 0;     ///< so much farther METHOD 1 looks [L]
-  bool integrates_ = true;  ///< somebody besides friction asks for the integrals over walls
+  bool integrates_ = true;  ///< the integrals over walls are needed for more than friction
   WallTables table_;
   Real spacing_;  ///< of particles [L]
   std::optional<WallCornerTables> corners_;

@@ -175,7 +175,7 @@ class WallSurface {
   struct Screen {
     Index plane = 0;
     Vec n = Vec::Zero();
-    Real offset = 0, height = 0;  ///< of who looks over it [L]
+    Real offset = 0, height = 0;  ///< of the particle beside it [L]
     std::vector<Index> faces;
   };
   /// What may be seen from a position.

@@ -14,7 +14,7 @@ namespace courant {
 namespace {
 
 constexpr Real tiny = 1e-300;
-constexpr Real rounded = 1 + 1e-9;  ///< times the reach: whoever is farther has nothing to do with anybody
+constexpr Real rounded = 1 + 1e-9;  ///< times the reach: farther particles do not interact
 
 }  // namespace
 

@@ -181,7 +181,7 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
     Pack there[Walls], farther[Walls];
     for (int k = 0; k < Walls; ++k) {
       there[k] = rooms.height[k] - dot(rooms.n[k], d);
-      farther[k] = 4 * rooms.height[k] * positive(there[k]);  // who is behind has no image
+      farther[k] = 4 * rooms.height[k] * positive(there[k]);  // particles behind have no image
     }
     Pack volume = Pack::of(a.V[j]), clear = least<Walls>(there);
     if (rooms.ends > 0) clear = min(clear, rooms.clear_of_ends(d, a.width));
@@ -231,7 +231,7 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
     Pack there[Walls], farther[Walls];
     for (int k = 0; k < Walls; ++k) {
       there[k] = rooms.height[k] - dot(rooms.n[k], d);
-      farther[k] = 4 * rooms.height[k] * positive(there[k]);  // who is behind has no image
+      farther[k] = 4 * rooms.height[k] * positive(there[k]);  // particles behind have no image
     }
     if (!any_less(r2 + least<Walls>(farther), reach2)) continue;
     Pack all = Pack::zero(), by[Walls];
