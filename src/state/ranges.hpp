@@ -1,5 +1,6 @@
 #pragma once
 // How far the state of the particles went during a run.
+#include <string>
 #include <vector>
 
 #include "base/real.hpp"
@@ -18,7 +19,8 @@ struct PartRange {
   Id part = 0;
   Real rho0 = 1;         ///< reference density RO [M/L3]
   Real c0 = 0;           ///< sound speed at the start [L/T]
-  bool liquid = true;    ///< holds pressure without heat, so that it should hardly change its density
+  /// Of a liquid that should hardly change its density: the field that makes it stiffer; else empty.
+  std::string stiffness_field{};
   bool seen = false;     ///< it had an active particle
   Extreme speed;         ///< largest [L/T]
   Extreme density_low;   ///< lowest rho/rho0 [-]

@@ -162,7 +162,7 @@ class NodeContact : public Force,
     std::vector<Index> leaked;  ///< tracked nodes
     std::vector<Seen> seen;     ///< scratch
     Real damping_work = 0, friction_work = 0;
-    Real let_go = 0;  ///< energy of touches with faces that are deleted [ML2/T2]
+    Real let_go = 0;  ///< energy of touches that end by a leak or with faces that are deleted [ML2/T2]
   };
   struct Share {  ///< of a touch
     Index touch = 0;

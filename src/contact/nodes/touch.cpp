@@ -175,6 +175,8 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
   if (!move_on(world, b, i, x, slots, slot, inside) || slot.gap >= 0) return false;
   if (slot.beyond > 0 || slot.gap + f.r + node(i).r >= -face(slot.face).through) return true;
   b.leaked.push_back(i);
+  const Real depth = std::max(-slot.gap - slot.slack, Real(0));
+  b.let_go += 0.5 * slot.k * depth * depth;
   return false;
 }
 

@@ -169,7 +169,7 @@ class ShellReader {
                                                                    ? "2 (Belytschko-Tsay)"
                                                                    : std::to_string(like->second.used)));
     else if (!is_membrane(s) && elform != belytschko_tsay && elform != flat_triangle &&
-             elform != fully_integrated)
+             elform != fully_integrated && !s.of_plane_solids() && !s.user_defined())
       error(s, "ELFORM",
             fmt::format("'{}'{} is not supported for shells that deform, as those of part {}", elform, from,
                         part.id),

@@ -54,6 +54,9 @@ class EosLaw {
   virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;
   virtual bool uses_energy() const = 0;
   virtual Real mu_limit() const = 0;  ///< the law holds below; infinite if it always holds
+  /// The field that makes a nearly incompressible liquid stiffer, "C1"; empty where the law is made for large
+  /// changes of volume: a shock curve, a table, a gas.
+  virtual std::string stiffness_field() const = 0;
   /// The same law for a material with another reference density than 1; nullptr where that makes no
   /// difference.
   virtual std::shared_ptr<EosLaw> at_density(Real rho0) const = 0;
@@ -128,6 +131,12 @@ class EosLawOf : public EosLaw {
     else
       return std::numeric_limits<Real>::infinity();
   }
+  std::string stiffness_field() const override {
+    if constexpr (requires { law_.stiffness_field(); })
+      return law_.stiffness_field();
+    else
+      return "its bulk modulus";
+  }
   std::shared_ptr<EosLaw> at_density(Real rho0) const override {
     if constexpr (requires { law_.at_density(rho0); })
       return with_law(law_.at_density(rho0), rho0);
@@ -161,7 +170,8 @@ class EosLawOf : public EosLaw {
 /// Card must have members eosid and functions law(), e0(), v0(), and may have specific_e0(); law() takes the
 /// model where it needs its curves. A law whose
 /// formula holds the reference density gives A and dA for the density 1 and has at_density(rho0); one that
-/// ends somewhere in compression has mu_limit(). The card may have check(deck, diagnostics), or with the
+/// ends somewhere in compression has mu_limit(); one with stiffness_field() names a field, or none.
+/// The card may have check(deck, diagnostics), or with the
 /// model between both.
 template <class Card>
 struct RegisterEos {

@@ -149,6 +149,21 @@ TEST(NodeContactTouch, FrictionWorksBetweenBothSides) {
   }
 }
 
+// What its spring holds where it goes through is dissipated, so that the balance closes.
+TEST(NodeContactTouch, LosesWhatItStoresByALeak) {
+  TouchScene scene;
+  scene.build();
+  come(scene, Vec(0, 0, -1));
+  EXPECT_EQ(recorded(scene).dissipated, 0);
+  scene.step(2.1);
+  EXPECT_EQ(scene.world.counters.at("leaked_nodes"), 1);
+  const Real depth = 0.004 + 1e-4 + 2.1;
+  const EnergyLedger ledger = recorded(scene);
+  EXPECT_NEAR(ledger.dissipated, 0.5 * 2.5 * depth * depth, 1e-12);
+  EXPECT_EQ(ledger.throughput, ledger.dissipated);
+  EXPECT_EQ(recorded(scene).dissipated, 0) << "once";
+}
+
 // At its death what it stores is lost, and told as its own.
 TEST(NodeContactTouch, LosesWhatItStoresAtItsDeath) {
   TouchScene scene;
