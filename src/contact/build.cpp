@@ -9,6 +9,8 @@
 #include "contact/nodes/build.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "state/shared_fields.hpp"
+#include "surfaces/contact_offset.hpp"
+#include "surfaces/contact_thickness.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {
@@ -80,10 +82,23 @@ class ParticleContactBuilder {
       deck_.warning(diagnostics_, c, "SBBOXID", fmt::format("no face of SURFB is in box {}", c.sbboxid),
                     "all corners of a face must be in it at the start");
     finder.are_stiff(c, out, c.soft != 0);
+    refuse_lifted(c, out);
     return out;
   }
 
  private:
+  /// Particles touch shells at their nodes.
+  void refuse_lifted(const ContactCard& c, const std::vector<Index>& faces) {
+    const Segments& g = world_.segments;
+    const auto lifted = [&](Index s) { return contact_offset(g, s, 0.5 * contact_thickness(g, s)) != 0; };
+    if (const auto one = std::find_if(faces.begin(), faces.end(), lifted); one != faces.end())
+      deck_.refuse(
+          diagnostics_, c, "SURFB",
+          fmt::format("CNTCO of *CONTROL_SHELL is not supported where SURFA has particles, and shell "
+                      "{} has an offset",
+                      g.id[*one]),
+          "give CNTCO 0, or put the nodes into the middle");
+  }
   std::vector<bool> particles_of(const ContactCard& c) {
     const Particles& p = world_.particles;
     constexpr int node_set = 4, all = 5, all_but = 6;
@@ -113,6 +128,7 @@ class ParticleContactBuilder {
     finder.with_inner(goes_inside(c));
     std::vector<Index> out = finder.faces(c, ContactSide::b);
     finder.are_stiff(c, out, c.soft != 0);
+    refuse_lifted(c, out);
     return out;
   }
 
