@@ -164,13 +164,13 @@ void NodeContact::let_go(const World& world, Block& b, Index i, const Vec& x, Sl
 // By which thickness counts from planes over the nodes, of the face and of those that the node belongs to; n
 // is the normal towards the node.
 Real NodeContact::lift(const World& world, Index i, const ContactFace& f, Real side, const Vec& n) const {
-  const ContactNode& who = node(i);
+  const ContactNode& point = node(i);
   Real out = side * f.lift;
-  if (!(who.most_lift > 0)) return out;
-  for (Index o = who.first; o < who.last; ++o) {
+  if (!(point.most_lift > 0)) return out;
+  for (Index o = point.first; o < point.last; ++o) {
     const OwnFace& own = own_[static_cast<std::size_t>(o)];
     if (own.lift != 0)
-      out -= own.lift * normal_of(world, own).dot(n) / static_cast<Real>(who.last - who.first);
+      out -= own.lift * normal_of(world, own).dot(n) / static_cast<Real>(point.last - point.first);
   }
   return out;
 }

@@ -222,7 +222,7 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   if (match.keyword < 0) {
     for (DataLines data(*file.source, line + 1); !data.done(); data.step())
       parameters_.note_mentions(data.line());
-    return is_output_request(keyword.name) ? note_request(file, line, keyword.name)
+    return is_output_request(keyword.name) ? note_request(file, line, keyword.name, where)
                                            : refuse(keyword.name, where);
   }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
@@ -245,9 +245,9 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
 }
 
 // An interval beyond the end of the run asks for nothing, nor do the files of parallel runs.
-Treatment DeckReader::note_request(const File& file, std::size_t line, const std::string& name) {
+Treatment DeckReader::note_request(const File& file, std::size_t line, const std::string& name,
+                                   const Location& where) {
   if (is_of_parallel_files(name)) return Treatment::honoured;
-  const Location where = place(file, line);
   const DataLines data(*file.source, line + 1);
   if (data.done() || !name.starts_with("DATABASE_")) return refuse(name, where);
   constexpr int width = 10;
@@ -269,12 +269,11 @@ void DeckReader::close_requests() {
     const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(termination)];
     spec.for_each(deck_, termination, [&](const Entry& entry) { end = spec.number_of(entry, 0, 0); });
   }
-  for (const Request& request : requests_) {
-    if (end && request.interval > *end)
-      deck_.keywords[request.name].treatment = Treatment::honoured;
-    else
-      refuse(request.name, request.where);
-  }
+  const auto is_idle = [&](const Request& request) { return end && request.interval > *end; };
+  for (const Request& request : requests_)
+    if (is_idle(request)) deck_.keywords[request.name].treatment = Treatment::honoured;
+  for (const Request& request : requests_)
+    if (!is_idle(request)) deck_.keywords[request.name].treatment = refuse(request.name, request.where);
 }
 
 Treatment DeckReader::refuse(const std::string& name, const Location& where) {
