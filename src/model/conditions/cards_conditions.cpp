@@ -72,7 +72,7 @@ std::string move_velocities(InitialVelocityCard& card, const Affine& motion) {
 }
 
 IdSpace kind_of_irigid(const InitialVelocityCard& card) {
-  return card.irigid > 0 ? IdSpace::part_set : IdSpace::none;
+  return card.irigid < 0 ? IdSpace::none : IdSpace::part_set;
 }
 
 IdSpace kind_of_id(const InitialVelocityGenerationCard& card) {
