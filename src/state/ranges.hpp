@@ -17,8 +17,8 @@ struct Extreme {
 /// What was seen of one part of particles.
 struct PartRange {
   Id part = 0;
-  Real rho0 = 1;         ///< reference density RO [M/L3]
-  Real c0 = 0;           ///< sound speed at the start [L/T]
+  Real rho0 = 1;  ///< reference density RO [M/L3]
+  Real c0 = 0;    ///< sound speed at the start [L/T]
   /// Of a liquid that should hardly change its density: the field that makes it stiffer; else empty.
   std::string stiffness_field{};
   bool seen = false;     ///< it had an active particle
