@@ -9,6 +9,8 @@
 #include "contact/nodes/build.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "state/shared_fields.hpp"
+#include "surfaces/contact_offset.hpp"
+#include "surfaces/contact_thickness.hpp"
 #include "surfaces/skin.hpp"
 
 namespace courant {
@@ -20,22 +22,17 @@ class ParticleContactBuilder {
                          Diagnostics& diagnostics)
       : deck_(deck), model_(model), options_(options), world_(world), diagnostics_(diagnostics) {}
 
-  /// Particles of SURFA, which may have nodes of elements, too; reports a missing side.
+  /// Particles of SURFA, which may have nodes of elements, too, in SABOXID; reports a missing side.
   std::vector<bool> tracked(const ContactCard& c) {
-    const Particles& p = world_.particles;
-    constexpr int node_set = 4, all = 5, all_but = 6;
-    std::vector<bool> out(p.size(), c.surfatyp == all);
-    if (c.surfatyp == node_set) return nodes_of_set(c, std::move(out));
-    std::vector<bool> chosen(model_.parts.size(), c.surfatyp == all_but);
-    const int type = c.surfatyp == all_but ? 2 : c.surfatyp;
-    for (const Index part : parts_named(deck_, model_, c, "SURFA", c.surfa, type, diagnostics_)) {
-      chosen[part] = c.surfatyp != all_but;
-      const ModelPart& named = model_.parts[part];
-      if (!named.has_sph && !named.has_shell && !named.has_solid)
-        deck_.error(diagnostics_, c, "SURFA", fmt::format("part {} has no elements", named.id),
-                    "SURFA must be parts of particles or elements, or a node set");
-    }
-    for (Index i = 0; i < p.size() && c.surfatyp != all; ++i) out[i] = chosen[p.part[i]];
+    std::vector<bool> out = particles_of(c);
+    FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
+    const Box* const box = finder.box_of(c, ContactSide::a);
+    if (!box || std::find(out.begin(), out.end(), true) == out.end()) return out;
+    for (Index i = 0; i < world_.particles.size(); ++i)
+      out[i] = out[i] && box->contains(world_.particles.x.vec(i));
+    if (std::find(out.begin(), out.end(), true) == out.end())
+      deck_.warning(diagnostics_, c, "SABOXID", fmt::format("no particle of SURFA is in box {}", box->id),
+                    "the box holds what it contains at the start");
     return out;
   }
 
@@ -47,8 +44,6 @@ class ParticleContactBuilder {
                      fmt::format("'{}' is not supported where SURFA has particles", value), instead);
     };
     refuse("SURFATYP", c.surfatyp, c.surfatyp == 0 || c.surfatyp == 1, "supported values: 2, 3, 4, 5, 6");
-    refuse("SABOXID", c.saboxid, c.saboxid != 0, "name the particles by a node set");
-    refuse("SBBOXID", c.sbboxid, c.sbboxid != 0, "give the faces a part of their own");
     if (c.soft == 2)
       deck_.warning(diagnostics_, c, "SOFT", "2 (faces on faces) runs as 1 for particles",
                     "give 1 where that is meant");
@@ -81,11 +76,47 @@ class ParticleContactBuilder {
       if (goes_inside(c) || !is_hidden(s)) out.push_back(s);
     FaceFinder finder(deck_, model_, options_.bulk_modulus, world_, diagnostics_);
     finder.leave_out_symmetric(c, out);
+    const bool any = !out.empty();
+    finder.keep_in_box(c, ContactSide::b, out);
+    if (any && out.empty() && model_.boxes.contains(c.sbboxid))
+      deck_.warning(diagnostics_, c, "SBBOXID", fmt::format("no face of SURFB is in box {}", c.sbboxid),
+                    "all corners of a face must be in it at the start");
     finder.are_stiff(c, out, c.soft != 0);
+    refuse_lifted(c, out);
     return out;
   }
 
  private:
+  /// Particles touch shells at their nodes.
+  void refuse_lifted(const ContactCard& c, const std::vector<Index>& faces) {
+    const Segments& g = world_.segments;
+    const auto lifted = [&](Index s) { return contact_offset(g, s, 0.5 * contact_thickness(g, s)) != 0; };
+    if (const auto one = std::find_if(faces.begin(), faces.end(), lifted); one != faces.end())
+      deck_.refuse(
+          diagnostics_, c, "SURFB",
+          fmt::format("CNTCO of *CONTROL_SHELL is not supported where SURFA has particles, and shell "
+                      "{} has an offset",
+                      g.id[*one]),
+          "give CNTCO 0, or put the nodes into the middle");
+  }
+  std::vector<bool> particles_of(const ContactCard& c) {
+    const Particles& p = world_.particles;
+    constexpr int node_set = 4, all = 5, all_but = 6;
+    std::vector<bool> out(p.size(), c.surfatyp == all);
+    if (c.surfatyp == node_set) return nodes_of_set(c, std::move(out));
+    std::vector<bool> chosen(model_.parts.size(), c.surfatyp == all_but);
+    const int type = c.surfatyp == all_but ? 2 : c.surfatyp;
+    for (const Index part : parts_named(deck_, model_, c, "SURFA", c.surfa, type, diagnostics_)) {
+      chosen[part] = c.surfatyp != all_but;
+      const ModelPart& named = model_.parts[part];
+      if (!named.has_sph && !named.has_shell && !named.has_solid)
+        deck_.error(diagnostics_, c, "SURFA", fmt::format("part {} has no elements", named.id),
+                    "SURFA must be parts of particles or elements, or a node set");
+    }
+    for (Index i = 0; i < p.size() && c.surfatyp != all; ++i) out[i] = chosen[p.part[i]];
+    return out;
+  }
+
   /// Whether faces that deletion lays bare count.
   static bool goes_inside(const ContactCard& c) { return kind_of(c).eroding && c.erosop == 1; }
   bool is_hidden(Index segment) const {
@@ -97,6 +128,7 @@ class ParticleContactBuilder {
     finder.with_inner(goes_inside(c));
     std::vector<Index> out = finder.faces(c, ContactSide::b);
     finder.are_stiff(c, out, c.soft != 0);
+    refuse_lifted(c, out);
     return out;
   }
 

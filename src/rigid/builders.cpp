@@ -4,6 +4,7 @@
 #include "loads/loads.hpp"
 #include "rigid/bodies/body_cards.hpp"
 #include "rigid/bodies/nodal_bodies.hpp"
+#include "rigid/bodies/replaced_velocity.hpp"
 #include "rigid/bodies/rigid.hpp"
 #include "rigid/bodies/time_limit.hpp"
 #include "rigid/joints/build_joints.hpp"
@@ -34,6 +35,7 @@ void find_nodes(const Deck& deck, const Model& model, MoreNodes& more) {
 void build_bodies(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                   std::shared_ptr<RigidBodies>& bodies, WallBodies& walls, UnweighedNodes& unweighed,
                   StepShare& share, Movers& movers) {
+  check_irigid(deck, model, diagnostics);
   bodies = build_rigid_bodies(deck, model, world, diagnostics);
   if (!bodies) return;
   walls = bodies->wall_bodies(world);

@@ -187,8 +187,7 @@ void find_reference(const Model& model, const World& world, const std::vector<Pa
     if (!m.found) continue;
     ranges[k].rho0 = m.ro;
     ranges[k].c0 = m.c0();
-    // a gas has no pressure without heat; solids have a law of strength
-    ranges[k].liquid = m.holds_cold() && m.starts_at_rest() && !m.strength;
+    ranges[k].stiffness_field = m.stiffness_field();
   }
   const Particles& p = world.particles;
   energy.value += sum(p.size(), [&](Index i) {  // of inlets none, as their particles are made up to ENDTIM

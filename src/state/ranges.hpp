@@ -1,5 +1,6 @@
 #pragma once
-// Extreme states of the particles during a run.
+// How far the state of the particles went during a run.
+#include <string>
 #include <vector>
 
 #include "base/real.hpp"
@@ -16,9 +17,10 @@ struct Extreme {
 /// Extremes of one part of particles.
 struct PartRange {
   Id part = 0;
-  Real rho0 = 1;         ///< reference density RO [M/L3]
-  Real c0 = 0;           ///< sound speed at the start [L/T]
-  bool liquid = true;    ///< bears pressure without heat, so its density should be nearly constant
+  Real rho0 = 1;  ///< reference density RO [M/L3]
+  Real c0 = 0;    ///< sound speed at the start [L/T]
+  /// Of a liquid that should hardly change its density: the field that makes it stiffer; else empty.
+  std::string stiffness_field{};
   bool seen = false;     ///< it had an active particle
   Extreme speed;         ///< largest [L/T]
   Extreme density_low;   ///< lowest rho/rho0 [-]

@@ -16,6 +16,10 @@ bool set_by_contact(const StopFacts& f) {
   return f.dt_set_by.rfind("contact", 0) == 0;
 }
 
+std::string modulus_of(const StopFacts& f) {
+  return f.stiffness_field.empty() ? "the bulk modulus" : f.stiffness_field;
+}
+
 std::string advice_for_start(const StopFacts& f) {
   if (f.tssfac > 1)
     return fmt::format(
@@ -30,15 +34,14 @@ std::string advice_for_start(const StopFacts& f) {
   if (f.start_speed > f.sound_speed)
     return fmt::format(
         "speeds of {:.4g} [L/T] at the start are above the sound speed of {:.4g}: check the "
-        "units of velocities against those of RO and C1 or K0; an impact this fast also "
+        "units of velocities against those of RO and {}; an impact this fast also "
         "needs the real bulk modulus",
-        f.start_speed, f.sound_speed);
+        f.start_speed, f.sound_speed, modulus_of(f));
   if (f.fall_speed > 0.5 * f.sound_speed)
     return fmt::format(
         "gravity gives speeds of {:.4g} [L/T] over the height of the scene, the sound speed is "
-        "{:.4g}: check the units of *LOAD_BODY against those of RO and C1 or K0, or raise the "
-        "modulus",
-        f.fall_speed, f.sound_speed);
+        "{:.4g}: check the units of *LOAD_BODY against those of RO and {}, or raise the modulus",
+        f.fall_speed, f.sound_speed, modulus_of(f));
   return "";
 }
 
@@ -62,9 +65,10 @@ std::string advice_for_flow(const StopFacts& f) {
         f.leaked);
   if (f.density_high > 2)
     return fmt::format(
-        "the density reached {:.3g} RO: an impact too fast for this equation of state; raise "
-        "C1 or K0, or lower the speed",
-        f.density_high);
+        "the density reached {:.3g} RO: an impact too fast for this equation of state; raise {}, or lower "
+        "the "
+        "speed",
+        f.density_high, modulus_of(f));
   if (f.tension && (f.cause == StopCause::density || f.density_low < 0.5))
     return fmt::format(
         "the density fell to {:.3g} RO in tension, which PC < 0 of *MAT_NULL allows: set PC = 0, "
@@ -111,8 +115,10 @@ StopFacts facts_at_start(Simulation& s) {
   f.sound_speed = std::numeric_limits<Real>::infinity();
   for (const PartRange& part : s.guard().ranges())
     if (part.c0 > 0) f.sound_speed = std::min(f.sound_speed, part.c0);
-  for (const PartMaterial& m : s.materials())
+  for (const PartMaterial& m : s.materials()) {
     f.strength |= m.strength != nullptr, f.tension |= m.found && !m.strength && m.pc < 0;
+    if (f.stiffness_field.empty()) f.stiffness_field = m.stiffness_field();
+  }
   Vec low = p.size() > 0 ? p.x.vec(0) : Vec::Zero(), high = low;
   for (Index i = 0; i < p.size(); ++i) {
     f.start_speed = std::max(f.start_speed, p.v.vec(i).norm());

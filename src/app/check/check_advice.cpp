@@ -105,6 +105,7 @@ class ChoiceAdvice {
     const PartMaterial& m = s_.materials()[k];
     const Real ratio = m.c0() / flow_.speed;
     if (!(flow_.speed > 0) || (ratio >= least && ratio <= most)) return;
+    if (ratio < least && m.stiffness_field().empty()) return;  // an impact that its law is made for
     const Real modulus = m.ro * usual * usual * flow_.speed * flow_.speed;
     const char* why = ratio < least ? "the liquid is squeezed by more than some per cent"
                                     : "steps are short for sound that the flow does not feel";

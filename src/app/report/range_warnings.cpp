@@ -15,12 +15,12 @@ std::string of(const Extreme& e) {
 std::vector<std::string> range_warnings(const Ranges& ranges, Real most_mach, Real most_change) {
   std::vector<std::string> out;
   for (const PartRange& r : ranges) {
-    if (!r.seen || !r.liquid) continue;
+    if (!r.seen || r.stiffness_field.empty()) continue;
     if (r.speed.value > most_mach * r.c0)
       out.push_back(
           fmt::format("part {}: the largest speed {} is above {:.3g} of the sound speed {:.4g}: the "
-                      "liquid is no longer nearly incompressible; where it should be, raise C1 or K0",
-                      r.part, of(r.speed), most_mach, r.c0));
+                      "liquid is no longer nearly incompressible; where it should be, raise {}",
+                      r.part, of(r.speed), most_mach, r.c0, r.stiffness_field));
     const bool low = r.density_low.value<1 - most_change, high = r.density_high.value> 1 + most_change;
     if (low || high)
       out.push_back(fmt::format(
@@ -29,7 +29,7 @@ std::vector<std::string> range_warnings(const Ranges& ranges, Real most_mach, Re
           r.part,
           high && low ? of(r.density_low) + " and " + of(r.density_high)
                       : of(low ? r.density_low : r.density_high),
-          high ? "raise C1 or K0" : "look where it was torn apart, and at PC of *MAT_NULL"));
+          high ? "raise " + r.stiffness_field : "look where it was torn apart, and at PC of *MAT_NULL"));
   }
   return out;
 }

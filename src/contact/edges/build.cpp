@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "contact/edges/edge_contact.hpp"
 #include "contact/nodes/measures.hpp"
 #include "contact/nodes/transducer.hpp"
 #include "state/shared_fields.hpp"
+#include "surfaces/contact_offset.hpp"
 
 namespace courant {
 
@@ -99,6 +101,13 @@ class EdgeContactBuilder {
       edge.area = area_of({world_.nodes.x.vec(a[0]), world_.nodes.x.vec(a[1]), world_.nodes.x.vec(a[2]),
                            world_.nodes.x.vec(a[3])});
       edge.r = measures_.half_thickness(side, s);
+      if (contact_offset(g, s, edge.r) != 0 && lifted_.insert(&c).second)
+        deck_.refuse(
+            diagnostics_, c, "SOFT",
+            fmt::format("edges of shells whose surface CNTCO of *CONTROL_SHELL puts off their nodes, as "
+                        "shell {}, are not supported",
+                        g.id[s]),
+            "give CNTCO 0, or a contact of nodes with faces alone");
       edge.of_part = g.part[s];
       edge.k = scale(c) * law.sfs[static_cast<std::size_t>(side)] * measures_.stiffness(s, edge.area);
       out.push_back(std::move(edge));
@@ -178,6 +187,7 @@ class EdgeContactBuilder {
   Diagnostics& diagnostics_;
   FaceFinder finder_;
   ContactMeasures measures_;
+  std::set<const ContactCard*> lifted_;  ///< reported
 };
 
 }  // namespace

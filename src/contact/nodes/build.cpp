@@ -13,6 +13,7 @@
 #include "contact/nodes/measures.hpp"
 #include "contact/nodes/solid_stacks.hpp"
 #include "contact/nodes/transducer.hpp"
+#include "surfaces/contact_offset.hpp"
 
 namespace courant {
 
@@ -146,6 +147,7 @@ class NodeContactBuilder {
       f.two_sided = !(g.volume[s] > 0);
       f.area = area_of(corners_of(f, world_.nodes.x));
       f.r = measures_.half_thickness(side, s);
+      f.lift = lift_of(c, s, f.r);
       f.k = measures_.stiffness(s, f.area);
       const Real through = c.penmax > 0 ? c.penmax : 1;
       const Real width = std::sqrt(f.area);
@@ -157,6 +159,20 @@ class NodeContactBuilder {
                                            most_widths * width);
       sides.faces.push_back(f);
     }
+  }
+
+  /// Beyond half the thickness a node would be behind the nodes of a face before it touches that.
+  Real lift_of(const ContactCard& c, Index s, Real half) {
+    constexpr Real rounding = 1e-9;
+    const Real lift = contact_offset(world_.segments, s, half);
+    if (std::abs(lift) <= (1 + rounding) * half) return lift;
+    if (lifted_too_far_.insert(&c).second)
+      deck_.error(diagnostics_, c, "",
+                  fmt::format("CNTCO of *CONTROL_SHELL puts the surface of shell {} by {:.4g} [L] off its "
+                              "nodes, which is more than half its thickness in this contact, {:.4g}",
+                              world_.segments.id[s], std::abs(lift), half),
+                  "give CNTCO 2, NLOC from -1 to 1, or a contact that counts thickness (_AUTOMATIC, SHLTHK)");
+    return 0;
   }
 
   const SolidStacks& stacks() {
@@ -184,7 +200,9 @@ class NodeContactBuilder {
         const Real area = area_of({world_.nodes.x.vec(own.node[0]), world_.nodes.x.vec(own.node[1]),
                                    world_.nodes.x.vec(own.node[2]), world_.nodes.x.vec(own.node[3])});
         own.area = area / own.corners(), own.k = measures_.stiffness(s, area) / own.corners();
-        node.r = std::max(node.r, measures_.half_thickness(static_cast<int>(pass), s));
+        const Real half = measures_.half_thickness(static_cast<int>(pass), s);
+        own.lift = contact_offset(g, s, half);
+        node.r = std::max(node.r, half), node.most_lift = std::max(node.most_lift, std::abs(own.lift));
         sides.own.push_back(own);
       }
       node.last = static_cast<Index>(sides.own.size());
@@ -264,6 +282,7 @@ class NodeContactBuilder {
   FaceFinder finder_;
   ContactMeasures measures_;
   std::optional<SolidStacks> stacks_;
+  std::set<const ContactCard*> lifted_too_far_;  ///< reported
   std::vector<std::shared_ptr<const NodeContact>> contacts_;
   std::map<int, std::shared_ptr<const NodeContact>> of_card_;
 };

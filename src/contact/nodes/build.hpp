@@ -60,6 +60,10 @@ class FaceFinder {
   /// Those that ISYM 1 of an eroding contact leaves out: faces of solids all of whose corners are held along
   /// their normal, if that is along a global axis.
   void leave_out_symmetric(const ContactCard& card, std::vector<Index>& faces) const;
+  /// The box that restricts a side at the start; null: none, or an error where it does not exist.
+  const Box* box_of(const ContactCard& card, ContactSide side) const;
+  /// Leaves out faces with a corner outside of that box.
+  void keep_in_box(const ContactCard& card, ContactSide side, std::vector<Index>& faces) const;
   /// All faces of the elements that nodes belong to.
   std::vector<Index> faces_around(const std::vector<Index>& nodes);
 

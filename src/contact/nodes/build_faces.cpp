@@ -157,19 +157,28 @@ std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side, 
   else
     out = of_parts(card, f.field, parts_of(card, f.field, f.id, everything ? all : f.type));
   leave_out_symmetric(card, out);
-  if (f.box == 0) return out;
+  keep_in_box(card, side, out);
+  return out;
+}
+
+const Box* FaceFinder::box_of(const ContactCard& card, ContactSide side) const {
+  const SideFields f = fields_of(card, side);
+  if (f.box == 0) return nullptr;
   const auto box = model_.boxes.find(f.box);
-  if (box == model_.boxes.end()) {
-    deck_.error(diagnostics_, card, f.box_field, fmt::format("box {} does not exist", f.box),
-                "define it with *DEFINE_BOX");
-    return out;
-  }
-  std::erase_if(out, [&](Index s) {
+  if (box != model_.boxes.end()) return &box->second;
+  deck_.error(diagnostics_, card, f.box_field, fmt::format("box {} does not exist", f.box),
+              "define it with *DEFINE_BOX");
+  return nullptr;
+}
+
+void FaceFinder::keep_in_box(const ContactCard& card, ContactSide side, std::vector<Index>& faces) const {
+  const Box* const box = box_of(card, side);
+  if (!box) return;
+  std::erase_if(faces, [&](Index s) {
     const auto corners = world_.segments.nodes(s);
     return !std::all_of(corners.begin(), corners.end(),
-                        [&](Index n) { return box->second.contains(world_.nodes.x.vec(n)); });
+                        [&](Index n) { return box->contains(world_.nodes.x.vec(n)); });
   });
-  return out;
 }
 
 void FaceFinder::leave_out_symmetric(const ContactCard& card, std::vector<Index>& faces) const {
@@ -231,9 +240,7 @@ std::vector<Index> FaceFinder::nodes_of_elements(const ContactCard& card, Contac
     for (const auto& group : world_.groups)
       for (int c = 0; group->part == k && c < group->corners(); ++c)
         out.insert(out.end(), group->node.data(c), group->node.data(c) + group->size());
-  if (f.box != 0 && !model_.boxes.contains(f.box))
-    deck_.error(diagnostics_, card, f.box_field, fmt::format("box {} does not exist", f.box),
-                "define it with *DEFINE_BOX");
+  box_of(card, side);  // reports one that does not exist
   keep_in_box(f.box, out);
   return out;
 }

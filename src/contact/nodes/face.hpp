@@ -17,6 +17,7 @@ struct ContactFace {
   Index segment = 0;       ///< index into World::segments
   bool two_sided = false;  ///< a shell; the face of a solid is touched from outside only
   Real r = 0;              ///< nodes touch it at this distance, half its thickness [L]
+  Real lift = 0;           ///< height over its nodes from which that counts, by CNTCO [L]
   Real k = 0;              ///< K A^2/V of a solid, K A/(longest diagonal) of a shell [M/T2]
   Real area = 0;           ///< at the start [L2]
   Real depth = 0;          ///< of the element behind it, the search depth for nodes without contact [L]

@@ -77,7 +77,7 @@ void NodeContact::take_involved(const World& world) {
 
 // Of the smaller half of the faces, so that few large ones make no long lists for all.
 void NodeContact::find_sizes() {
-  for (const ContactNode& n : nodes_) r_most_ = std::max(r_most_, n.r);
+  for (const ContactNode& n : nodes_) r_most_ = std::max(r_most_, n.r + n.most_lift);
   std::vector<Real> sizes;
   for (const ContactFace& f : faces_) sizes.push_back(std::sqrt(f.area));
   if (sizes.empty()) return;

@@ -1,6 +1,7 @@
 #pragma once
 // Penalty contact of nodes with faces of elements and rigid bodies. Equations: docs/theory_contact.md.
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -23,6 +24,7 @@ struct ContactNode {
   Index node = 0;             ///< index into World::nodes
   unsigned pass = 0;          ///< 0: of SURFA, on faces of SURFB; 1: the reverse
   Real r = 0;                 ///< half its contact thickness [L]
+  Real most_lift = 0;         ///< of its faces, either way [L]
   Index first = 0, last = 0;  ///< the faces that it belongs to: of ContactSides::own
 };
 
@@ -32,6 +34,7 @@ struct OwnFace {
   Index segment = 0;  ///< index into World::segments
   bool two_sided = false;
   Real k = 0, area = 0;  ///< share of the node [M/T2], [L2]
+  Real lift = 0;         ///< as ContactFace::lift [L]
   int corners() const { return node[2] == node[3] ? 3 : 4; }
 };
 
@@ -163,7 +166,7 @@ class NodeContact : public Force,
     Index jumped = 0;           ///< touches that were suddenly deeper
     std::vector<Seen> seen;     ///< scratch
     Real damping_work = 0, friction_work = 0;
-    Real let_go = 0;  ///< energy of touches with faces that are deleted [ML2/T2]
+    Real let_go = 0;  ///< energy of touches that end by a leak or with faces that are deleted [ML2/T2]
   };
   struct Share {  ///< of a touch
     Index touch = 0;
@@ -206,6 +209,18 @@ class NodeContact : public Force,
   template <class Face>
   bool is_there(const Face& f) const {
     return !eroded_ || (*eroded_)[f.segment] == 0;
+  }
+  Real lift(const World& world, Index i, const ContactFace& f, Real side, const Vec& n) const;
+  /// At which a node touches a side of a face whose normal towards it is n. [L]
+  Real distance(const World& world, Index i, const ContactFace& f, Real side, const Vec& n) const {
+    return f.r + node(i).r + lift(world, i, f, side, n);
+  }
+  /// `d`: from the nodes of the face. [L]
+  Real gap_at(const World& world, Index i, const ContactFace& f, Real side, const Vec& n, Real d) const {
+    return d - f.r - node(i).r - lift(world, i, f, side, n);
+  }
+  Real most_distance(Index i, const ContactFace& f) const {
+    return f.r + std::abs(f.lift) + node(i).r + node(i).most_lift;
   }
   bool has_faces(const ContactNode& n) const;
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;

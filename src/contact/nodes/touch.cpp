@@ -83,7 +83,7 @@ void NodeContact::narrow_block(const World& world, Index begin, Index end) {
     const auto k = static_cast<std::size_t>(i - begin);
     const auto first = b.candidate.begin() + b.first[k], last = b.candidate.begin() + b.first[k + 1];
     const auto within = [&](Index s, Real reach) {
-      return may_reach(s, x, face(s).r + node(i).r + reach + near_margin_);
+      return may_reach(s, x, most_distance(i, face(s)) + reach + near_margin_);
     };
     if (!fresh_ && !touches_any(i) &&
         std::none_of(first, last, [&](Index s) { return within(s, idle_reach(face(s))); }))
@@ -107,7 +107,9 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, cons
     const Index s = b.near[static_cast<std::size_t>(c)];
     const ContactFace& f = face(s);
     const bool deep = fresh_ || goes_on_at(slots, f);
-    const Real reach = f.r + node(i).r + (idle ? idle_reach(f) : deep ? std::max(reach_, f.depth) : reach_);
+    const Real reach = most_distance(i, f) + (idle   ? idle_reach(f)
+                                              : deep ? std::max(reach_, f.depth)
+                                                     : reach_);
     if (!may_reach(s, x, reach + moved_)) continue;
     Seen& seen = b.seen.emplace_back();
     seen.face = s;
@@ -167,10 +169,25 @@ void NodeContact::let_go(const World& world, Block& b, Index i, const Vec& x, Sl
     if (slot.face < 0 || (is_there(face(slot.face)) && may_touch_[static_cast<std::size_t>(i)])) continue;
     const ContactFace& f = face(slot.face);
     const Projection at = project(corners_of(f, world.nodes.x), f.corners, x);
-    const Real depth = f.r + node(i).r - slot.side * at.n.dot(x - at.q) - slot.slack;
-    if (depth > 0 && depth < f.through + f.r + node(i).r) b.let_go += 0.5 * slot.k * depth * depth;
+    const Real r = distance(world, i, f, slot.side, slot.side * at.n);
+    const Real depth = r - slot.side * at.n.dot(x - at.q) - slot.slack;
+    if (depth > 0 && depth < f.through + r) b.let_go += 0.5 * slot.k * depth * depth;
     slot = Slot();
   }
+}
+
+// By which thickness counts from planes over the nodes, of the face and of those that the node belongs to; n
+// is the normal towards the node.
+Real NodeContact::lift(const World& world, Index i, const ContactFace& f, Real side, const Vec& n) const {
+  const ContactNode& point = node(i);
+  Real out = side * f.lift;
+  if (!(point.most_lift > 0)) return out;
+  for (Index o = point.first; o < point.last; ++o) {
+    const OwnFace& own = own_[static_cast<std::size_t>(o)];
+    if (own.lift != 0)
+      out -= own.lift * normal_of(world, own).dot(n) / static_cast<Real>(point.last - point.first);
+  }
+  return out;
 }
 
 // Whether the touch lasts.
@@ -186,10 +203,13 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
   slot.n = slot.side * slot.at.n;
   if (first_step_) give_stiffness(world, i, slot);
   slot.beyond = 0;
-  slot.gap = slot.n.dot(x - slot.at.q) - f.r - node(i).r;
+  slot.gap = gap_at(world, i, f, slot.side, slot.n, slot.n.dot(x - slot.at.q));
   if (!move_on(world, b, i, x, slots, slot, inside) || slot.gap >= 0) return false;
-  if (slot.beyond > 0 || slot.gap + f.r + node(i).r >= -face(slot.face).through) return true;
+  const ContactFace& now = face(slot.face);
+  if (slot.beyond > 0 || slot.gap + distance(world, i, now, slot.side, slot.n) >= -now.through) return true;
   b.leaked.push_back(i);
+  const Real depth = std::max(-slot.gap - slot.slack, Real(0));
+  b.let_go += 0.5 * slot.k * depth * depth;
   return false;
 }
 
@@ -206,7 +226,7 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     return true;
   };
   const Seen* best = nullptr;
-  const Real slot_d = slot.gap + f.r + node(i).r;
+  const Real slot_d = slot.gap + distance(world, i, f, slot.side, slot.n);
   Real best_d = 0, best_gap = 0, best_side = 1;
   const auto nearer = [&](Real d, Real gap, Real than, Real its_gap) {
     if (d > 0 && than > 0) return gap < its_gap - rounding * size_;
@@ -218,7 +238,7 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
     const ContactFace& g = face(seen.face);
     if (seen.face == slot.face || f.shared(g) == 0) continue;
     const Real along = slot.n.dot(seen.at.n), side = g.two_sided && along < 0 ? -1 : 1;
-    const Real gap = side * seen.at.n.dot(x - seen.at.q) - g.r - node(i).r;
+    const Real gap = gap_at(world, i, g, side, side * seen.at.n, side * seen.at.n.dot(x - seen.at.q));
     const bool goes_on = side * along > bent, across = !inside && at_rim(g);
     const bool rises = slot.n.dot(centre_of(corners_of(g, world.nodes.x), g.corners) - slot.at.q) > 0;
     if (seen.at.inside && (goes_on || (across && rises && gap < 0))) {
@@ -235,7 +255,8 @@ bool NodeContact::move_on(const World& world, const Block& b, Index i, const Vec
   if (!best || is_taken(slots, best->face) || (outside && !best_is_smooth)) {
     if (inside) return true;
     if (!best) wedge = !go_along_edge(world, b, x, slots, slot) && wedge;
-    return past_edge(world, x, wedge && !outside, face(slot.face).r + node(i).r, slot);
+    return past_edge(world, x, wedge && !outside, distance(world, i, face(slot.face), slot.side, slot.n),
+                     slot);
   }
   slot.face = best->face, slot.at = best->at, slot.gap = best_gap, slot.side = best_side;
   slot.n = slot.side * slot.at.n;
@@ -299,20 +320,20 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
                           Slot& slot) const {
   const ContactFace& f = face(seen.face);
   const Nodes& nodes = world.nodes;
-  const Real r = f.r + node(i).r;
   const Vec moved = (nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N)) * clock.dt_old;
   const Real before = seen.d - seen.at.n.dot(moved);
   slot = Slot();
   slot.face = seen.face, slot.at = seen.at;
   slot.side = f.two_sided && before < 0 ? -1 : 1;
   // What leaves a shell without thickness was behind it a step ago, and stays on its side.
-  for (int k = 0; f.two_sided && !(r > 0) && k < most_touches; ++k) {
+  for (int k = 0; f.two_sided && !(f.r + node(i).r > 0) && k < most_touches; ++k) {
     const Slot last = load(i, k);
     if (last.face < 0 || (last.face != seen.face && face(last.face).shared(f) == 0)) continue;
     const Vec normal = plane_normal(corners_of(face(last.face), world.nodes.x));
     slot.side = seen.at.n.dot(normal) < 0 ? -last.side : last.side;
   }
   slot.n = slot.side * slot.at.n;
+  const Real r = distance(world, i, f, slot.side, slot.n);
   slot.gap = slot.side * seen.d - r;
   if (slot.gap >= 0) return false;
   if (fresh_) {
@@ -335,7 +356,7 @@ bool NodeContact::is_lost(const World& world, const Block& b, Index i) const {
   return std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
     const ContactFace& f = face(seen.face);
     const bool other = world.segments.part[f.segment] != world.nodes.part[node(i).node];
-    const Real gap = seen.d - f.r - node(i).r;
+    const Real gap = gap_at(world, i, f, 1, seen.at.n, seen.d);
     return other && !f.two_sided && seen.at.over && gap < -start_depth * f.depth && gap > -f.depth &&
            !grazes(world, i, seen.face, seen.at.q, seen.at.n);
   });

@@ -83,6 +83,7 @@ class ShellReader {
  private:
   void set_options(const ModelPart& part, const SectionShell& s, bool whole, ShellPart& out) {
     out.marea = s.marea, out.nloc = s.nloc, out.full = used(s) == fully_integrated;
+    out.contact_plane = control_ ? control_->cntco : 0;
     out.rotary_scale = control_ ? control_->rotascl : 1;
     out.warp_warning = control_ ? control_->wrpang : out.warp_warning;
     ShellControl& c = out.control;
@@ -169,7 +170,7 @@ class ShellReader {
                                                                    ? "2 (Belytschko-Tsay)"
                                                                    : std::to_string(like->second.used)));
     else if (!is_membrane(s) && elform != belytschko_tsay && elform != flat_triangle &&
-             elform != fully_integrated)
+             elform != fully_integrated && !s.of_plane_solids() && !s.user_defined())
       error(s, "ELFORM",
             fmt::format("'{}'{} is not supported for shells that deform, as those of part {}", elform, from,
                         part.id),
@@ -219,18 +220,6 @@ class ShellReader {
            });
   }
 
-  bool has_offsets() const {
-    const auto deforms = [&](Index shell) {
-      return !model_.parts[static_cast<std::size_t>(model_.shells[static_cast<std::size_t>(shell)].part)]
-                  .rigid;
-    };
-    return std::any_of(model_.shell_offset.begin(), model_.shell_offset.end(),
-                       [&](const auto& one) { return one.second != 0 && deforms(one.first); }) ||
-           std::any_of(model_.parts.begin(), model_.parts.end(), [&](const ModelPart& part) {
-             const SectionShell* const s = part.has_shell && !part.rigid ? sections_.of(part) : nullptr;
-             return s && s->nloc != 0;
-           });
-  }
   /// What stands for it.
   int used(const SectionShell& s) const {
     const auto like = similar.find(formulation(s));
@@ -265,8 +254,6 @@ class ShellReader {
     refuse("ICRQ", c.icrq != 0, c.icrq, "each shell has one thickness");
     for (const auto& [field, value] : {std::pair("NFAIL1", c.nfail1), std::pair("NFAIL4", c.nfail4)})
       refuse(field, value < 0 || value > 2, value, "distorted shells stay (0), go (1) or end the run (2)");
-    refuse("CNTCO", c.cntco != 0 && has_offsets(), c.cntco,
-           "contact takes shells with an offset as if their middle were at the nodes");
     refuse("DRCPSID", c.drcpsid != 0, static_cast<Real>(c.drcpsid), "rotations about the normal are free");
   }
 

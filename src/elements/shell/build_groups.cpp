@@ -14,6 +14,7 @@
 #include "elements/shell/shells.hpp"
 #include "laws/strength/material_axes.hpp"
 #include "state/shared_fields.hpp"
+#include "surfaces/contact_offset.hpp"
 
 namespace courant {
 
@@ -297,6 +298,11 @@ void fill_group(const Model& model, const ShellPart& part, const std::vector<Ind
     if (directions) directions->fill(e, s, x);
     const Real t = world.segments.thickness[s], off = offset ? offset_of(model, part, s, t) : 0;
     if (offset) (*offset)[e] = off;
+    if (part.contact_plane != 0 && off != 0) {
+      const bool at_middle = part.contact_plane == 1;
+      shared_fields::contact_offset.add(world.segments.fields).data(at_middle ? 1 : 0)[s] =
+          at_middle ? 0.5 * t * off : off;
+    }
     const Real area = weigh(part, x, t, e, group);
     if (corner_inertia)
       (*corner_inertia)[e] = inertia_of_corner(part, x, t, off, group.corners(), area, group.mass[e]);

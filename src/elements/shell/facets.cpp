@@ -59,18 +59,22 @@ void note_facets(const Model& model, const std::vector<ShellPart>& parts, World&
     const Real between = std::acos(std::clamp<Real>(-one.normal.dot(other.normal), -1, 1)) * 180 / pi;
     angle[other.part] = std::max(angle[other.part], std::min(between, 180 - between));
   }
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (!(angle[k] > flat)) continue;
-    Real& most = world.maxima["angle_between_facets"];
-    most = std::max(most, angle[k]);
-    diagnostics.note(
-        model.parts[k].where,
-        fmt::format("shells of part {} meet at angles of up to {:.3g} degrees, and formulation 2 "
-                    "has no stiffness about the normal: where curved surfaces and open sections "
-                    "bend or twist elastically, they are too soft",
-                    model.parts[k].id, angle[k]),
-        "give BWC 1 of *CONTROL_SHELL, or ELFORM 16");
-  }
+  std::vector<std::size_t> bent;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (angle[k] > flat) bent.push_back(k);
+  if (bent.empty()) return;
+  const Real largest = *std::max_element(angle.begin(), angle.end());
+  Real& most = world.maxima["angle_between_facets"];
+  most = std::max(most, largest);
+  std::string names;
+  for (const std::size_t k : bent) names += fmt::format("{}{}", names.empty() ? "" : ", ", model.parts[k].id);
+  diagnostics.note(
+      model.parts[bent.front()].where,
+      fmt::format("shells of part{} {} meet at angles of up to {:.3g} degrees, and formulation 2 "
+                  "has no stiffness about the normal: where curved surfaces and open sections "
+                  "bend or twist elastically, they are too soft",
+                  bent.size() == 1 ? "" : "s", names, largest),
+      "give BWC 1 of *CONTROL_SHELL, or ELFORM 16");
 }
 
 }  // namespace courant

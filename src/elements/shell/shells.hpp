@@ -34,6 +34,7 @@ struct ShellPart {
   bool full = false;              ///< ELFORM 16: 2 x 2 points in the plane of quadrilaterals
   std::vector<Real> zeta, share;  ///< points through the thickness: height over half of it, weight (sum 1)
   Real marea = 0;                 ///< mass per area besides that of the law [M/L2]
+  int contact_plane = 0;          ///< CNTCO
   Real nloc = 0;                  ///< NLOC: height of the nodes over the middle, over half the thickness
   Real rotary_scale = 1;          ///< ROTASCL
   Real warp_warning = 20;         ///< WRPANG [degrees]

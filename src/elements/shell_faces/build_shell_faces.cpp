@@ -55,7 +55,7 @@ std::vector<WallPart> read_parts(const Deck& deck, const Model& model,
       deck.error(diagnostics, s, "ELFORM",
                  fmt::format("user-defined shells ({}) are not supported", s.elform),
                  "use 2 (Belytschko-Tsay)");
-    if (s.elform >= 13 && s.elform <= 15)
+    if (s.of_plane_solids())
       deck.error(diagnostics, s, "ELFORM", fmt::format("{} is a 2D solid, not a shell", s.elform),
                  "use 2 (Belytschko-Tsay)");
   }

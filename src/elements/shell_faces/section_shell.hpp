@@ -18,6 +18,7 @@ struct SectionShell : Entry {
   Real shrf = 1, propt = 1;
   std::vector<std::string> user{};  ///< cards of what is not supported
   bool user_defined() const { return elform >= 101 && elform <= 105; }
+  bool of_plane_solids() const { return elform >= 13 && elform <= 15; }
   Real t1 = 0, t2 = 0, t3 = 0, t4 = 0, nloc = 0, marea = 0, idof = 0;
   static constexpr int angles_on_card = 8, most_angle_cards = 5;
   std::vector<Real> b1{}, b2{}, b3{}, b4{}, b5{}, b6{}, b7{}, b8{};  ///< ICOMP 1: of each card [degrees]

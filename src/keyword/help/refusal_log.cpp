@@ -10,11 +10,11 @@ bool RefusalLog::is_first(const std::string& name, const Diagnostics& diagnostic
   return is_new;
 }
 
-void RefusalLog::close(Diagnostics& diagnostics) const {
-  for (const auto& [name, told] : told_)
-    if (told.more > 0)
-      diagnostics.amend(told.message,
-                        fmt::format(" (here and at {} more line{})", told.more, told.more == 1 ? "" : "s"));
+void RefusalLog::close(Diagnostics& diagnostics, const char* location) const {
+  for (const auto& [name, count] : told_)
+    if (count.more > 0)
+      diagnostics.amend(count.message, fmt::format(" (here and at {} more {}{})", count.more, location,
+                                                   count.more == 1 ? "" : "s"));
 }
 
 }  // namespace courant

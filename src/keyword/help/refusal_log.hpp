@@ -1,5 +1,5 @@
 #pragma once
-// A keyword that is not supported is reported once, at the first location, with the number of further lines.
+// What is wrong at many locations is reported once, at the first one, with the number of further ones.
 #include <map>
 #include <string>
 
@@ -11,8 +11,9 @@ class RefusalLog {
  public:
   /// True where `name` comes for the first time: then its message must be the next one in `diagnostics`.
   bool is_first(const std::string& name, const Diagnostics& diagnostics);
-  /// Adds the number of further lines to the messages, once the deck has been read.
-  void close(Diagnostics& diagnostics) const;
+  bool holds(const std::string& name) const { return told_.contains(name); }
+  /// Adds the number of further locations to the messages, once the deck has been read. `location`: "line".
+  void close(Diagnostics& diagnostics, const char* location = "line") const;
 
  private:
   struct RefusalCount {

@@ -23,8 +23,6 @@ bool satisfies(Check check, Real value) {
   }
 }
 
-namespace {
-
 bool is_whole(FieldType type) {
   return type == FieldType::integer || type == FieldType::id || type == FieldType::ids;
 }
@@ -34,6 +32,8 @@ std::string expectation(const FieldSpec& field) {
   return std::string(is_whole(field.type) ? "an integer" : "a number") +
          condition[static_cast<int>(field.rules.check)];
 }
+
+namespace {
 
 /// Whether each line is an entry, as in the tables of nodes and elements.
 bool is_table(const KeywordSpec& spec, const KeywordMatch& match) {
@@ -51,6 +51,7 @@ void CardReader::read(const Block& block, Diagnostics& diagnostics) {
   const auto sink = spec_->sink(deck_);
   find_end();
   table_ = {};
+  faults_.clear(), repeated_ = {}, shifted_line_ = 0;
   if (is_table(*spec_, block.match)) {
     sink->expect(end_ - block.line - 1);
     table_ = TableLines(*spec_, block.format);
@@ -74,6 +75,7 @@ void CardReader::read(const Block& block, Diagnostics& diagnostics) {
     if (data.index() == before) break;  // a keyword without cards
     first = false;
   }
+  repeated_.close(diagnostics);
 }
 
 /// Once for the block: to look ahead at each card would take the square of the number of blank lines.
@@ -130,72 +132,6 @@ void CardReader::refuse_second_definition(const Entry& entry) {
                           deck_.keyword(*first), deck_.place(*first)),
               fmt::format("give every {} an id of its own{}", id_word(spec_->id_space),
                           first->keyword == entry.keyword ? "" : ", whatever its kind"));
-}
-
-bool CardReader::read_title_lines(DataLines& data, EntrySink& sink) {
-  const auto next = [&](const char* what) {
-    if (data.done()) {
-      missing(data, what);
-      return false;
-    }
-    line_ = static_cast<int>(data.index()) + 1;
-    return true;
-  };
-  if (spec_->heading) {
-    sink.set_title(parameters_.title(data.line()));
-    data.step();
-  }
-  if (block_.match.id) {
-    if (!next("the line with ID and heading")) return false;
-    read_id_line(data.line(), line_, sink);
-    data.step();
-  }
-  if (block_.match.title) {
-    if (!next("the title line")) return false;
-    sink.set_title(parameters_.title(data.line()));
-    data.step();
-  }
-  if (block_.match.mpp) {
-    if (!next("the line of the option _MPP")) return false;
-    const std::size_t first = data.index();
-    skip_mpp_lines(data);
-    for (std::size_t k = first; k < data.index(); ++k) parameters_.note_mentions(block_.source->lines[k]);
-  }
-  return true;
-}
-
-void CardReader::read_id_line(std::string_view line, int number, EntrySink& sink) {
-  const std::size_t width = block_.format == CardFormat::long_fields ? 20 : 10;
-  const std::size_t comma = next_comma(line, 0, has_brackets(line));
-  // a heading may contain commas, so only one within the ID's columns separates
-  const std::size_t end = std::min(comma < width ? comma : width, line.size());
-  const std::string_view text = trimmed(line.substr(0, end));
-  Id id = 0;
-  std::string fault, hint = "the option _ID adds a line with the ID in columns 1-10 and a heading in 11-80";
-  if (Parameters::is_reference(text)) {
-    const Parameters::Resolved value = parameters_.resolve(text);
-    id = value.number.integer;
-    if (value.failed) {
-      fault = value.error;
-      hint = value.hint;
-    } else if (value.type != 'I' || id < 0) {
-      fault = fmt::format("expected an integer >= 0, got '{}', which is {}", text,
-                          value.type == 'C'   ? "a text (C)"
-                          : value.type == 'R' ? "a real (R)"
-                                              : value.text);
-      hint = value.origin;
-    }
-  } else if (!text.empty() && (!parse_integer(text, id) || id < 0)) {
-    fault = fmt::format("expected an integer >= 0, got '{}'", text);
-  }
-  line_ = number;
-  if (!fault.empty())
-    diagnostics_->error(here(1),
-                        fmt::format("*{}_ID field 1 (ID, number of the entry [-]): {}",
-                                    spec_->names[static_cast<std::size_t>(block_.match.name)], fault),
-                        hint);
-  sink.set_id(id);
-  sink.set_title(parameters_.title(line.substr(std::min(end + (comma < width ? 1 : 0), line.size()))));
 }
 
 void CardReader::read_cards(DataLines& data, EntrySink& sink) {
@@ -266,7 +202,7 @@ void CardReader::read_whole_line(const DataLines& data, std::size_t card, EntryS
     while (end < line.size() && (std::isalnum(static_cast<unsigned char>(line[end])) || line[end] == '_'))
       ++end;
     const Parameters::Resolved value = parameters_.resolve(line.substr(at, end - at));
-    if (value.failed)
+    if (value.failed && is_news(value))
       diagnostics_->error(
           here(static_cast<int>(at) + 1),
           fmt::format("*{}: {}", spec_->names[static_cast<std::size_t>(block_.match.name)], value.error),
@@ -279,6 +215,7 @@ void CardReader::read_whole_line(const DataLines& data, std::size_t card, EntryS
 
 void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& sink) {
   line_ = static_cast<int>(data.index()) + 1;
+  row_ = data.line();
   int too_many = 0;
   split_card(data.line(), spec_->cards[card], block_.format, slices_, &too_many);
   const std::size_t fields = spec_->cards[card].fields.size();
@@ -291,19 +228,6 @@ void CardReader::read_card(const DataLines& data, std::size_t card, EntrySink& s
         here(1),
         fmt::format("*{}: card {} has {} fields; values behind them ({}) are not read",
                     spec_->names[static_cast<std::size_t>(block_.match.name)], card + 1, fields, too_many));
-}
-
-bool CardReader::warn_of_cut_number(std::string_view line, const CardSpec& spec, std::size_t card) {
-  const std::size_t last = last_column(spec, block_.format);
-  const FieldType type = spec.fields.back().type;
-  if (type == FieldType::text || type == FieldType::texts || type == FieldType::skip ||
-      !runs_across(line, last) || line.substr(0, last).find(',') != std::string_view::npos)
-    return false;
-  diagnostics_->warning(
-      here(static_cast<int>(last)),
-      fmt::format("*{}: a number runs across column {}, the last of card {}; the rest is not read",
-                  spec_->names[static_cast<std::size_t>(block_.match.name)], last, card + 1));
-  return true;
 }
 
 /// Of a list of ids, whether a blank field or 0 has a location in it.
@@ -398,7 +322,7 @@ bool CardReader::substitute(std::size_t card, std::size_t field, Slice& slice, s
   Parameters::Resolved value = parameters_.resolve(slice.text);
   if (value.failed) {
     slice.column += static_cast<int>(value.at);
-    if (!value.error.empty()) field_error(card, field, slice, value.error, std::move(value.hint));
+    if (!value.error.empty()) parameter_error(card, field, slice, value);
     return false;
   }
   origin_ = std::move(value.origin);
@@ -437,8 +361,7 @@ bool CardReader::substitute_texts(std::size_t card, std::size_t field, Slice& sl
   if (slice.text.find('&') == std::string_view::npos) return true;
   if (Parameters::is_name(slice.text)) {
     Parameters::Resolved value = parameters_.resolve(slice.text);
-    if (value.failed && !value.error.empty())
-      field_error(card, field, slice, value.error, std::move(value.hint));
+    if (value.failed && !value.error.empty()) parameter_error(card, field, slice, value);
     if (value.failed) return false;
     held = std::move(value.text);
   } else {
@@ -446,51 +369,6 @@ bool CardReader::substitute_texts(std::size_t card, std::size_t field, Slice& sl
   }
   slice.text = held;
   return true;
-}
-
-bool CardReader::passes(std::size_t card, std::size_t field, const Slice& slice, Real value) {
-  const FieldSpec& spec = spec_->cards[card].fields[field];
-  if (!satisfies(spec.rules.check, value)) {
-    field_error(card, field, slice, fmt::format("expected {}, got '{}'", expectation(spec), slice.text));
-    return false;
-  }
-  if (value == spec.rules.standard) return true;
-  if (spec.rules.honour == Honour::no) {
-    field_refused(card, field, slice, fmt::format("leave the field blank or {:g}", spec.rules.standard));
-    return false;
-  }
-  if (spec.rules.honour == Honour::output_only)
-    diagnostics_->warning(here(slice.column),
-                          fmt::format("{}: '{}' is not supported and has no effect",
-                                      describe_field(*spec_, block_.match.name, card, field), slice.text));
-  return true;
-}
-
-bool CardReader::is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value) {
-  const auto& allowed = spec_->cards[card].fields[field].rules.allowed;
-  if (allowed.takes(value)) return true;
-  field_refused(card, field, slice, fmt::format("supported values: {}", fmt::join(allowed, ", ")));
-  return false;
-}
-
-/// The field keeps its standard value.
-void CardReader::field_refused(std::size_t card, std::size_t field, const Slice& slice, std::string hint) {
-  field_error(card, field, slice, fmt::format("'{}' is not supported", slice.text), std::move(hint), true);
-}
-
-void CardReader::field_error(std::size_t card, std::size_t field, const Slice& slice,
-                             const std::string& message, std::string hint, bool contained) {
-  if (!origin_.empty()) hint += (hint.empty() ? "" : "; ") + origin_;
-  diagnostics_->add({Severity::error, here(slice.column),
-                     describe_field(*spec_, block_.match.name, card, field) + ": " + message, std::move(hint),
-                     contained});
-}
-
-void CardReader::missing(const DataLines& data, const std::string& what) {
-  line_ = static_cast<int>(data.index());  // the last line that is there
-  const std::string name = spec_->names[static_cast<std::size_t>(block_.match.name)];
-  diagnostics_->error(here(1), fmt::format("*{}: {} is missing", name, what),
-                      fmt::format("`courant keywords {}` shows its cards", name));
 }
 
 }  // namespace courant

@@ -1,16 +1,22 @@
 #pragma once
 // Reads the data lines below one keyword into entries, by the keyword's table.
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "keyword/deck.hpp"
+#include "keyword/help/refusal_log.hpp"
 #include "keyword/read/parameters.hpp"
 #include "keyword/read/table_lines.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
 namespace courant {
+
+bool is_whole(FieldType type);
+/// "an integer > 0"
+std::string expectation(const FieldSpec& field);
 
 class CardReader {
  public:
@@ -29,6 +35,8 @@ class CardReader {
   };
   /// Faults of the cards go to `diagnostics`.
   void read(const Block& block, Diagnostics& diagnostics);
+  /// Once the deck has been read: adds to messages where else they hold.
+  void close() { undefined_.close(all_, "field"); }
   /// Entries read since the last call.
   std::size_t take_count() { return std::exchange(count_, 0); }
   bool full() const { return all_.errors() >= max_errors; }
@@ -56,10 +64,15 @@ class CardReader {
   bool substitute(std::size_t card, std::size_t field, Slice& slice, std::string& held);
   /// Replaces each &name of a text parameter; other names must be those of a whole field.
   bool substitute_texts(std::size_t card, std::size_t field, Slice& slice, std::string& held);
+  void parameter_error(std::size_t card, std::size_t field, const Slice& slice,
+                       const Parameters::Resolved& failed);
+  /// False where the name that it misses was reported before.
+  bool is_news(const Parameters::Resolved& failed);
   bool passes(std::size_t card, std::size_t field, const Slice& slice, Real value);
   bool is_allowed(std::size_t card, std::size_t field, const Slice& slice, Id value);
   void field_error(std::size_t card, std::size_t field, const Slice& slice, const std::string& message,
                    std::string hint = {}, bool contained = false);
+  bool is_shifted(std::size_t card, const Slice& slice) const;
   void field_refused(std::size_t card, std::size_t field, const Slice& slice, std::string hint);
   void missing(const DataLines& data, const std::string& what);
   Location here(int column) const { return deck_.location(block_.file, line_, column); }
@@ -75,6 +88,16 @@ class CardReader {
   std::size_t count_ = 0;
   std::string origin_;  ///< of the value of the field being read, if that is a parameter
   TableLines table_;
+  std::string_view row_;  ///< the line being read
+  int shifted_line_ = 0;  ///< the last one whose fields look shifted
+  RefusalLog undefined_;  ///< parameters
+  /// Faults of a field in a block, which many of its lines may have.
+  struct FieldFaults {
+    int shown = 0;
+    std::string last{};
+  };
+  std::map<std::pair<std::size_t, std::size_t>, FieldFaults> faults_;  ///< by card and field
+  RefusalLog repeated_;                                                ///< of the block
   std::vector<Slice> slices_;
 };
 

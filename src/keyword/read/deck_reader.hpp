@@ -39,6 +39,8 @@ class DeckReader {
   bool read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment read_cards(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment refuse(const std::string& name, const Location& where);
+  Treatment note_request(const File& file, std::size_t line, const std::string& name, const Location& where);
+  void close_requests();
   bool refuse_encrypted(const File& file, std::size_t line, const KeywordLine& keyword);
   void check_end(const File& file);
   void note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use);
@@ -91,6 +93,13 @@ class DeckReader {
   bool too_many_files_ = false;
   std::optional<Families> families_;
   RefusalLog refusals_;
+  /// A request for output without a table, whose interval may be beyond the end of the run.
+  struct Request {
+    std::string name{};
+    Location where{};
+    Real interval = 0;  ///< [T]
+  };
+  std::vector<Request> requests_;
   HeldControls controls_;
 };
 

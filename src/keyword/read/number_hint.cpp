@@ -28,7 +28,8 @@ std::string number_hint(std::string_view text) {
   if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<signed char>(c) < ' '; }))
     return "a character in it is not ASCII: a blank or a sign of a text program?";
   // Fortran readers skip blanks within a number or take them for zeros; we do not guess
-  if (text.find(' ') != std::string_view::npos && is_digit(text.back()))
+  if (text.find("  ") == std::string_view::npos && text.find(' ') != std::string_view::npos &&
+      is_digit(text.back()))
     return "a number must not contain blanks; is it within the columns of its field?";
   Real value = 0;
   if (looks_like_number(text) && !parse_real(text, value))

@@ -111,7 +111,8 @@ void Parameters::read_literal(const Definition& definition, std::string_view tex
 
 void Parameters::read_expression(const Definition& definition, Value& value, Diagnostics& diagnostics) const {
   bool uses_faulty = false;
-  ExpressionResult result = evaluate(definition.value, value.made_of, uses_faulty);
+  std::string unknown;
+  ExpressionResult result = evaluate(definition.value, value.made_of, uses_faulty, unknown);
   if (result.ok() && value.type == 'I') {
     const auto whole = result.value.is_integer ? result.value.integer : truncated(result.value.real);
     if (whole)

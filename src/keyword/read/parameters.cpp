@@ -112,6 +112,7 @@ Parameters::Resolved Parameters::resolve_name(std::string_view text, bool negati
   std::size_t index = 0;
   if (!look_up(name_of(text), index)) {
     out.failed = true;
+    out.unknown = name_of(text);
     out.error = fmt::format("parameter '{}' is not defined", text);
     out.hint = nearest(text);
     return out;
@@ -147,7 +148,7 @@ Parameters::Resolved Parameters::resolve_expression(std::string_view text, bool 
   }
   const std::size_t begin = negative ? 2 : 1;
   std::string inside(text.substr(begin, text.size() - begin - 1));
-  const ExpressionResult result = evaluate(inside, uses, out.failed);
+  const ExpressionResult result = evaluate(inside, uses, out.failed, out.unknown);
   if (out.failed) return out;
   if (!result.ok()) {
     out.failed = true;
@@ -163,14 +164,13 @@ Parameters::Resolved Parameters::resolve_expression(std::string_view text, bool 
   return out;
 }
 
-ExpressionResult Parameters::evaluate(std::string_view text, std::vector<std::size_t>& uses,
-                                      bool& faulty) const {
-  std::string unknown;
+ExpressionResult Parameters::evaluate(std::string_view text, std::vector<std::size_t>& uses, bool& faulty,
+                                      std::string& unknown) const {
   ExpressionNames names;
   names.find = [&](std::string_view name, std::string& reason) -> std::optional<Number> {
     std::size_t index = 0;
     if (!look_up(name, index)) {
-      unknown = name;
+      unknown = upper_case(name);
       return std::nullopt;
     }
     const Value& value = values_[index];

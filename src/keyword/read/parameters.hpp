@@ -43,6 +43,7 @@ class Parameters {
     Number number{};       ///< of types I and R
     std::string origin{};  ///< "&width is 2.0, defined at deck.k:21"; empty for an expression
     bool failed = false;
+    std::string unknown{};        ///< if failed because no parameter has this name
     std::string error{}, hint{};  ///< if failed; both may be empty where the definition had its error before
     std::size_t at = 0;           ///< position of the error in the text
   };
@@ -88,7 +89,9 @@ class Parameters {
   bool look_up(std::string_view name, std::size_t& index) const;
   void mark_used(std::size_t index);
   std::string nearest(std::string_view reference) const;  ///< hint for a name that is not known here
-  ExpressionResult evaluate(std::string_view text, std::vector<std::size_t>& uses, bool& faulty) const;
+  /// `unknown`: becomes the name that no parameter has, where there is one.
+  ExpressionResult evaluate(std::string_view text, std::vector<std::size_t>& uses, bool& faulty,
+                            std::string& unknown) const;
   Resolved resolve_expression(std::string_view text, bool negative, std::vector<std::size_t>& uses) const;
   Resolved resolve_name(std::string_view text, bool negative, std::vector<std::size_t>& uses) const;
   Resolved resolve_with(std::string_view text, std::vector<std::size_t>& uses) const;

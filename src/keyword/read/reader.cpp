@@ -35,7 +35,9 @@ Deck DeckReader::read(const std::string& path) {
   read_file({.name = path}, std::move(source));
   if (!options_.more.empty()) read_file({.name = "the call"}, make_source(options_.more));
   controls_.close(deck_, diagnostics_);
+  close_requests();
   refusals_.close(diagnostics_);
+  cards_.close();
   if (cards_.full())
     diagnostics_.note({path, 0, 0}, fmt::format("reading stopped after {} errors", CardReader::max_errors));
   else
@@ -188,6 +190,10 @@ bool defines_nothing(const std::string& name) {
   return false;
 }
 
+bool is_of_parallel_files(const std::string& name) {
+  return name.starts_with("CONTROL_MPP_IO_");
+}
+
 /// Whether lines hold nothing but zeros, as 0, 0.0 or 0.000E+00.
 bool all_zero(DataLines data) {
   for (; !data.done(); data.step())
@@ -207,7 +213,8 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   const KeywordMatch match = index_.match(keyword.name);
   const bool refused =
       match.keyword < 0 || !keyword_registry()[static_cast<std::size_t>(match.keyword)]->lacking.empty();
-  if (refused && keyword.name.starts_with("CONTROL_") && all_zero(DataLines(*file.source, line + 1))) {
+  if (refused && keyword.name.starts_with("CONTROL_") && !is_of_parallel_files(keyword.name) &&
+      all_zero(DataLines(*file.source, line + 1))) {
     diagnostics_.note(where,
                       fmt::format("*{}: all fields are 0 or blank, which changes nothing", keyword.name));
     return Treatment::honoured;
@@ -215,7 +222,8 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   if (match.keyword < 0) {
     for (DataLines data(*file.source, line + 1); !data.done(); data.step())
       parameters_.note_mentions(data.line());
-    return refuse(keyword.name, where);
+    return is_output_request(keyword.name) ? note_request(file, line, keyword.name, where)
+                                           : refuse(keyword.name, where);
   }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
   const CardReader::Block block{.file = file.index,
@@ -234,6 +242,38 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
                       fmt::format("*{}: {}", keyword.name, not_supported(spec.lacking)), "",
                       defines_nothing(keyword.name)});
   return Treatment::refused;
+}
+
+// An interval beyond the end of the run asks for nothing, nor do the files of parallel runs.
+Treatment DeckReader::note_request(const File& file, std::size_t line, const std::string& name,
+                                   const Location& where) {
+  if (is_of_parallel_files(name)) return Treatment::honoured;
+  const DataLines data(*file.source, line + 1);
+  if (data.done() || !name.starts_with("DATABASE_")) return refuse(name, where);
+  constexpr int width = 10;
+  const std::string_view text = split_equal(data.line(), width, width).front().text;
+  Real interval = 0;
+  if (Parameters::is_reference(text))
+    parse_real(parameters_.resolve(text).text, interval);
+  else
+    parse_real(text, interval);
+  if (!(interval > 0)) return refuse(name, where);
+  requests_.push_back({name, where, interval});
+  return Treatment::output_only;
+}
+
+void DeckReader::close_requests() {
+  std::optional<Real> end;
+  const std::int32_t termination = index_.match("CONTROL_TERMINATION").keyword;
+  if (termination >= 0) {
+    const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(termination)];
+    spec.for_each(deck_, termination, [&](const Entry& entry) { end = spec.number_of(entry, 0, 0); });
+  }
+  const auto is_idle = [&](const Request& request) { return end && request.interval > *end; };
+  for (const Request& request : requests_)
+    if (is_idle(request)) deck_.keywords[request.name].treatment = Treatment::honoured;
+  for (const Request& request : requests_)
+    if (!is_idle(request)) deck_.keywords[request.name].treatment = refuse(request.name, request.where);
 }
 
 Treatment DeckReader::refuse(const std::string& name, const Location& where) {

@@ -53,8 +53,12 @@ class EosLaw {
   /// mu). [L2/T2]
   virtual Real sound_speed2(Real rho0, Real mu, Real E) const = 0;
   virtual bool uses_energy() const = 0;
-  virtual Real mu_limit() const = 0;  ///< upper limit of validity of the law; infinite: none
-  /// The same law for a material with another reference density than 1; nullptr where it is the same.
+  virtual Real mu_limit() const = 0;  ///< the law holds below; infinite if it always holds
+  /// The field that makes a nearly incompressible liquid stiffer, "C1"; empty where the law is made for large
+  /// changes of volume: a shock curve, a table, a gas.
+  virtual std::string stiffness_field() const = 0;
+  /// The same law for a material with another reference density than 1; nullptr where that makes no
+  /// difference.
   virtual std::shared_ptr<EosLaw> at_density(Real rho0) const = 0;
   Real E0 = 0;           ///< initial internal energy per reference volume [M/LT2]
   Real V0 = 1;           ///< initial relative volume rho0/rho
@@ -127,6 +131,12 @@ class EosLawOf : public EosLaw {
     else
       return std::numeric_limits<Real>::infinity();
   }
+  std::string stiffness_field() const override {
+    if constexpr (requires { law_.stiffness_field(); })
+      return law_.stiffness_field();
+    else
+      return "its bulk modulus";
+  }
   std::shared_ptr<EosLaw> at_density(Real rho0) const override {
     if constexpr (requires { law_.at_density(rho0); })
       return with_law(law_.at_density(rho0), rho0);
@@ -158,9 +168,11 @@ class EosLawOf : public EosLaw {
 };
 
 /// Card must have members eosid and functions law(), e0(), v0(), and may have specific_e0(); law() takes the
-/// model where it needs its curves. A law whose formula contains the reference density has A and dA for the
-/// density 1 and at_density(rho0); one with a limit in compression has mu_limit(). The card may have
-/// check(deck, diagnostics), or with the model between both.
+/// model where it needs its curves. A law whose
+/// formula holds the reference density gives A and dA for the density 1 and has at_density(rho0); one that
+/// ends somewhere in compression has mu_limit(); one with stiffness_field() names a field, or none.
+/// The card may have check(deck, diagnostics), or with the
+/// model between both.
 template <class Card>
 struct RegisterEos {
   RegisterEos(std::string equation, std::string source, std::vector<EosReference> references,

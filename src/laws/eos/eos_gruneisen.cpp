@@ -63,6 +63,7 @@ struct Gruneisen {
   Real dB(Real) const { return a; }
   bool uses_energy() const { return gamma0 != 0 || a != 0; }
   Real mu_limit() const { return end; }
+  const char* stiffness_field() const { return s1 > 0 ? "" : "C"; }
   Gruneisen at_density(Real rho0) const { return {K * rho0, s1, s2, s3, gamma0, a, end}; }
 
  private:

@@ -15,6 +15,7 @@ struct IdealGas {
   Real B(Real mu) const { return k * (1 + mu); }
   Real dB(Real) const { return k; }
   bool uses_energy() const { return true; }
+  const char* stiffness_field() const { return ""; }
 };
 
 struct EosIdealGas : EosIdealGasFields {

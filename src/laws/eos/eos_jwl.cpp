@@ -18,6 +18,7 @@ struct Jwl {
   Real B(Real mu) const { return omega * (1 + mu); }
   Real dB(Real) const { return omega; }
   bool uses_energy() const { return omega != 0; }
+  const char* stiffness_field() const { return ""; }
 
  private:
   // x = 1/V

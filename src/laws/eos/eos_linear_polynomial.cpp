@@ -15,6 +15,8 @@ struct LinearPolynomial {
   Real B(Real mu) const { return c4 + mu * (c5 + (mu > 0 ? c6 * mu : 0)); }
   Real dB(Real mu) const { return c5 + (mu > 0 ? 2 * c6 * mu : 0); }
   bool uses_energy() const { return c4 != 0 || c5 != 0 || c6 != 0; }
+  /// With C2 or C3 it is a fit to a shock curve.
+  const char* stiffness_field() const { return c2 == 0 && c3 == 0 ? "C1" : ""; }
 };
 
 struct EosLinearPolynomial : EosLinearPolynomialFields {

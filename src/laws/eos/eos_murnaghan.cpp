@@ -17,6 +17,7 @@ struct Murnaghan {
   Real B(Real) const { return 0; }
   Real dB(Real) const { return 0; }
   bool uses_energy() const { return false; }
+  const char* stiffness_field() const { return "K0"; }
 };
 
 struct EosMurnaghan : EosMurnaghanFields {

@@ -21,6 +21,7 @@ struct SackTuesday {
   Real B(Real mu) const { return b2 * (1 + mu); }
   Real dB(Real) const { return b2; }
   bool uses_energy() const { return b2 != 0; }
+  const char* stiffness_field() const { return ""; }
 
  private:
   Real factor(Real x) const { return a3 * std::pow(x, a1) * std::exp(-a2 / x); }

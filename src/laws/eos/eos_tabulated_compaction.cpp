@@ -38,6 +38,7 @@ struct Compaction {
   Real B(Real mu) const { return gamma * tables->T(std::log1p(mu)); }
   Real dB(Real mu) const { return gamma * tables->T.slope(std::log1p(mu)) / (1 + mu); }
   bool uses_energy() const { return gamma != 0 && !tables->T.is_zero(); }
+  const char* stiffness_field() const { return ""; }
 };
 
 struct EosTabulatedCompaction : VolumePoints {

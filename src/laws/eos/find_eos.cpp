@@ -35,7 +35,7 @@ void check_start(const Deck& deck, const ModelPart& part, const EosLaw& eos, Rea
 
 }  // namespace
 
-PartEos::PartEos(const Deck& deck, const Model& model) {
+PartEos::PartEos(const Deck& deck, const Model& model) : model_(model) {
   for (const EosEntry& kind : eos_registry())
     for (const auto& [id, law] : kind.all(deck, model)) laws_.emplace(id, law);
 }
@@ -49,11 +49,18 @@ std::shared_ptr<EosLaw> PartEos::at_density(Id id, const std::shared_ptr<EosLaw>
 bool PartEos::exists(const Deck& deck, const ModelPart& part, const char* what,
                      Diagnostics& diagnostics) const {
   if (laws_.count(part.eosid) > 0) return true;
+  if (!missing_.emplace(part.mid, part.eosid, what).second) return false;
+  std::string parts;
+  for (const ModelPart& other : model_.parts)
+    if (other.mid == part.mid && other.eosid == part.eosid && other.has_sph == part.has_sph &&
+        other.has_solid == part.has_solid)
+      parts += fmt::format("{}{}", parts.empty() ? " " : ", ", other.id);
+  if (parts.find(',') != std::string::npos) parts.insert(0, "s");
   deck.error(diagnostics, part.card, "EOSID",
              part.eosid == 0
-                 ? fmt::format("the {} of part {} need an equation of state, got none", what, part.id)
-                 : fmt::format("there is no equation of state with id {} for the {} of part {}", part.eosid,
-                               what, part.id),
+                 ? fmt::format("the {} of part{} need an equation of state, got none", what, parts)
+                 : fmt::format("there is no equation of state with id {} for the {} of part{}", part.eosid,
+                               what, parts),
              "add one of " + known_laws() + " and give its id here");
   return false;
 }

@@ -2,6 +2,9 @@
 // Which equation of state a part has.
 #include <map>
 #include <memory>
+#include <set>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "laws/eos/eos.hpp"
@@ -14,7 +17,8 @@ namespace courant {
 class PartEos {
  public:
   PartEos(const Deck& deck, const Model& model);
-  /// Whether there is one for `part`; an error where not. `what`: "particles", "solids".
+  /// Whether there is one for `part`; an error where not, once for all parts of a material that lack it.
+  /// `what`: "particles", "solids".
   bool exists(const Deck& deck, const ModelPart& part, const char* what, Diagnostics& diagnostics) const;
   /// That of `part`, whose material has density `ro` and gives no pressure; null, and an error, where there
   /// is none or where it has no sound speed at the start. `what` as above. ro [M/L3]
@@ -25,6 +29,8 @@ class PartEos {
   std::shared_ptr<EosLaw> at_density(Id id, const std::shared_ptr<EosLaw>& law, Real ro);
   std::map<Id, std::shared_ptr<EosLaw>> laws_;
   std::map<std::pair<Id, Real>, std::shared_ptr<EosLaw>> of_density_;
+  const Model& model_;
+  mutable std::set<std::tuple<Id, Id, std::string>> missing_;  ///< MID, EOSID and `what` that were reported
 };
 
 }  // namespace courant

@@ -60,7 +60,7 @@ const RegisterStrength<W> mat_spotweld{
           .optional = true},
          {.fields = {{"RS", &W::rs, "-", "plastic strain at rupture, behind damage from EFAIL on",
                       unsupported},
-                     {"OPT", &W::opt, "-", "0: failure by resultants", {.allowed = {0}}},
+                     {"OPT", &W::opt, "-", "0: failure by resultants; other values are refused"},
                      {"FVAL", &W::fval, "-", "parameter of other OPT", no_effect},
                      {"TRUE_T", &W::true_t, "L", "true thickness of solids", unsupported},
                      {"ASFF", &W::asff, "-", "failure of assemblies of solids", no_effect},
@@ -84,6 +84,9 @@ void MatSpotweld::check(const Deck& deck, const Model& model, Diagnostics& diagn
   if (!(pr < 0.5))
     deck.error(diagnostics, *this, "PR", fmt::format("expected a number < 0.5, got '{:g}'", pr),
                "a material that keeps its volume has no finite bulk modulus");
+  if (opt != 0)
+    deck.refuse(diagnostics, *this, "OPT", fmt::format("'{}' is not supported", opt),
+                "0 is failure by forces and moments of beams");
   for (const ModelPart& part : model.parts) {
     if (part.mid != mid) continue;
     if (part.has_shell || part.has_sph)
@@ -91,7 +94,7 @@ void MatSpotweld::check(const Deck& deck, const Model& model, Diagnostics& diagn
                  fmt::format("{} is for beams with ELFORM 9 and for solids, and part {} has {}",
                              deck.keyword(*this), part.id, part.has_shell ? "shells" : "particles"),
                  "*MAT_PLASTIC_KINEMATIC has the same plasticity");
-    if (part.has_solid && of_resultants())
+    if (part.has_solid && opt == 0 && of_resultants())  // else the fields are stresses
       deck.error(diagnostics, *this, "NRR",
                  fmt::format("failure by forces and moments of the section (NRR to MTT) is not supported for "
                              "solids, as those of part {}",

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "model/conditions/given_velocity.hpp"
 #include "model/conditions/relaxation.hpp"
 #include "model/model_builder.hpp"
 #include "model/transforms/transformation.hpp"
@@ -264,19 +265,15 @@ void ModelBuilder::set_velocity(const InitialVelocityGenerationCard& card) {
     error(card, "NX", "an axis given by two nodes (-999) is not supported", "give the direction of the axis");
     return;
   }
-  const Matrix axes = axes_of(card, card.icid);
-  const Vec direction = axes * Vec(card.nx, card.ny, card.nz);
-  if (card.omega != 0 && direction.norm() == 0) {
+  if (card.omega != 0 && card.nx == 0 && card.ny == 0 && card.nz == 0) {
     error(card, "NX", "the axis of the rotation has no direction", "give NX, NY, NZ, not all zero");
     return;
   }
-  const Vec omega = card.omega == 0 ? Vec(Vec::Zero()) : Vec(card.omega * direction.normalized());
-  const Vec centre(card.xc, card.yc, card.zc);  // global, also with ICID
-  const Vec v = axes * Vec(card.vx, card.vy, card.vz);
+  const GivenVelocity given = given_velocity(card, axes_of(card, card.icid));
   for (const Index n : nodes_of(card)) {
     ModelNode& target = model_.nodes[static_cast<std::size_t>(n)];
-    target.v = v + omega.cross(target.x - centre);
-    if (card.omega != 0 && model_.turns()) model_.angular_velocity[n] = omega;
+    target.v = given.at(target.x);
+    if (card.omega != 0 && model_.turns()) model_.angular_velocity[n] = given.omega;
   }
 }
 

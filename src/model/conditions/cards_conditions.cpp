@@ -71,6 +71,10 @@ std::string move_velocities(InitialVelocityCard& card, const Affine& motion) {
   return reason.empty() ? move_velocity(card.vxe, card.vye, card.vze, motion) : reason;
 }
 
+IdSpace kind_of_irigid(const InitialVelocityCard& card) {
+  return card.irigid < 0 ? IdSpace::none : IdSpace::part_set;
+}
+
 IdSpace kind_of_id(const InitialVelocityGenerationCard& card) {
   return card.styp == 1 ? IdSpace::part_set : card.styp == 2 ? IdSpace::part : IdSpace::node_set;
 }

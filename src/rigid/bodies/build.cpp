@@ -245,7 +245,8 @@ class BodyBuilder {
       }
       of_given.insert(member.nodes.begin(), member.nodes.end());
       RigidBody one;
-      if (!take_given_inertia(deck_, model_, *member.given, one, diagnostics_)) return false;
+      if (!take_given_inertia(deck_, model_, world_, *member.given, {k, member.nodes}, one, diagnostics_))
+        return false;
       add_mass(one, any, b);
     }
     std::size_t sum = 0;

@@ -105,7 +105,7 @@ bool build_nodal_body(const NodalBody& nodal, const Deck& deck, const Model& mod
                  "name nodes of elements, add *ELEMENT_MASS, or give the mass by _INERTIA");
   if (at_nodes.m > 0) b.J_lumped = at_nodes.inertia();
   if (nodal.given) {
-    if (!take_given_inertia(deck, model, *nodal.given, b, diagnostics)) return false;
+    if (!take_given_inertia(deck, model, world, *nodal.given, {-1, b.nodes}, b, diagnostics)) return false;
     b.unweighed = b.nodes;
   } else {
     take_mass(b, at_nodes);

@@ -16,8 +16,8 @@ bool is_positive(const Matrix& a, Real slack) {
 
 }  // namespace
 
-bool take_given_inertia(const Deck& deck, const Model& model, const PartInertiaCard& card, RigidBody& b,
-                        Diagnostics& diagnostics) {
+bool take_given_inertia(const Deck& deck, const Model& model, const World& world, const PartInertiaCard& card,
+                        const InertiaBody& of, RigidBody& b, Diagnostics& diagnostics) {
   const auto error = [&](const char* field, std::string what, const char* hint) {
     deck.error(diagnostics, card, field, std::move(what), hint);
     return false;
@@ -56,7 +56,9 @@ bool take_given_inertia(const Deck& deck, const Model& model, const PartInertiaC
         "no body has such an inertia: of its principal moments one is larger than the sum of the others; it "
         "turns by it all the same",
         "look at the signs and the axes of the tensor");
-  b.v = Vec(card.vtx, card.vty, card.vtz), b.L = b.J0 * Vec(card.vrx, card.vry, card.vrz);
+  const BodyStart own{Vec(card.vtx, card.vty, card.vtz), Vec(card.vrx, card.vry, card.vrz)};
+  const BodyStart start = replaced_start(deck, model, world, of, b.x).value_or(own);
+  b.v = start.v, b.L = b.J0 * start.omega;
   return true;
 }
 

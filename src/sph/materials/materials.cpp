@@ -73,6 +73,12 @@ bool PartMaterial::starts_at_rest() const {
   return std::abs(eos->pressure(mu, eos->E0)) < small * ro * eos->sound_speed2(ro, mu, eos->E0);
 }
 
+// A gas has no pressure without heat; solids have a law of strength.
+std::string PartMaterial::stiffness_field() const {
+  return found && eos && !strength && holds_cold() && starts_at_rest() ? eos->stiffness_field()
+                                                                       : std::string();
+}
+
 SphMaterial PartMaterial::for_particles() const {
   if (!found) return {};
   return {ro, eos ? eos->V0 : 1, pc, mu, eos && eos->uses_energy(), strength};

@@ -23,6 +23,9 @@ struct PartMaterial {
   /// Its pressure at the start is small beside its bulk modulus, not that of a gas or of the products of a
   /// detonation, which expand.
   bool starts_at_rest() const;
+  /// The field that sets how nearly incompressible a liquid is; empty: it is none, or compression is the
+  /// subject of its equation of state.
+  std::string stiffness_field() const;
   SphMaterial for_particles() const;
 };
 

@@ -118,7 +118,7 @@ PartRange calm() {
   return {.part = 3,
           .rho0 = 1000,
           .c0 = 30,
-          .liquid = true,
+          .stiffness_field = "C1",
           .seen = true,
           .speed = {5.9, 17, 0.1},
           .density_low = {0.91, 18, 0.2},
@@ -128,9 +128,9 @@ PartRange calm() {
 TEST(RangeWarnings, NothingOfWhatIsCalmAGasOrNotThere) {
   EXPECT_TRUE(range_warnings({calm()}, 0.2, 0.1).empty());
   PartRange gas = calm();
-  gas.speed.value = 100, gas.density_low.value = 0.1, gas.liquid = false;
+  gas.speed.value = 100, gas.density_low.value = 0.1, gas.stiffness_field.clear();
   PartRange absent = gas;
-  absent.liquid = true, absent.seen = false;
+  absent.stiffness_field = "C1", absent.seen = false;
   EXPECT_TRUE(range_warnings({gas, absent}, 0.2, 0.1).empty());
   EXPECT_EQ(range_lines({gas, absent}).size(), 1u);
 }
@@ -141,6 +141,7 @@ TEST(RangeWarnings, SpeedAndDensityEachHaveALine) {
   ASSERT_EQ(range_warnings({r}, 0.2, 0.1).size(), 1u);
   EXPECT_NE(range_warnings({r}, 0.2, 0.1)[0].find("part 3: the largest speed 6.1 (particle 17 at 0.1)"),
             std::string::npos);
+  EXPECT_NE(range_warnings({r}, 0.2, 0.1)[0].find("where it should be, raise C1"), std::string::npos);
   r.density_low.value = 0.89;
   ASSERT_EQ(range_warnings({r}, 0.2, 0.1).size(), 2u);
   EXPECT_NE(range_warnings({r}, 0.2, 0.1)[1].find("density over RO went to 0.89 (particle 18 at 0.2)"),

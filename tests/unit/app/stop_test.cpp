@@ -248,7 +248,7 @@ TEST(Stop, RangesAreThoseOfTheState) {
     PartRange expected = s->guard().ranges()[0];
     EXPECT_EQ(expected.part, 1);
     EXPECT_EQ(expected.c0, 30);
-    EXPECT_TRUE(expected.liquid);
+    EXPECT_EQ(expected.stiffness_field, "C1");
     EXPECT_EQ(expected.speed.value, 0.5);  // seen at cycle 0 only
     ASSERT_EQ(run_on(*s, 1).text, "");     // the look at cycle 64
     const PartRange& r = s->guard().ranges()[0];

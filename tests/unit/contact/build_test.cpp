@@ -71,6 +71,40 @@ TEST(BuildContacts, NodeSetTracksItsParticlesOnly) {
   EXPECT_EQ((*k)[1], 0);
 }
 
+TEST(BuildContacts, BoxesRestrictBothSidesAtTheStart) {
+  const auto add_box = [](Case& c, const Vec& low, const Vec& high) {
+    c.model.boxes[7].id = 7, c.model.boxes[7].low = low, c.model.boxes[7].high = high;
+  };
+  Case of_one;  // the particle that is not within the contact distance
+  add_box(of_one, Vec(0, 0, 0.04), Vec(0.1, 0.1, 0.1));
+  of_one.card.saboxid = 7;
+  ASSERT_EQ(of_one.build().size(), 1u);
+  EXPECT_EQ(of_one.diagnostics.text(), "");
+  const auto& k =
+      dynamic_cast<Field<Real>&>(*of_one.scene.world.particles.fields.find("contact_1_stiffness"));
+  EXPECT_EQ(k[0], 0);
+  EXPECT_GT(k[1], 0);
+  Case of_none;
+  add_box(of_none, Vec(1, 0, 0), Vec(2, 1, 1));
+  of_none.card.saboxid = 7;
+  EXPECT_TRUE(of_none.build().empty());
+  EXPECT_NE(of_none.diagnostics.text().find("no particle of SURFA is in box 7"), std::string::npos);
+  Case of_plate;
+  add_box(of_plate, Vec(0, 0, 0), Vec(0.1, 0.1, 0));
+  of_plate.card.sbboxid = 7;
+  EXPECT_EQ(of_plate.build().size(), 1u);
+  Case of_part;  // of the plate
+  add_box(of_part, Vec(0, 0, 0), Vec(0.09, 0.1, 0));
+  of_part.card.sbboxid = 7;
+  EXPECT_TRUE(of_part.build().empty());
+  EXPECT_NE(of_part.diagnostics.text().find("no face of SURFB is in box 7"), std::string::npos);
+  for (Id ContactCard::*box : {&ContactCard::saboxid, &ContactCard::sbboxid}) {
+    Case c;
+    c.card.*box = 9;
+    EXPECT_NE(c.failure().find("box 9 does not exist"), std::string::npos);
+  }
+}
+
 TEST(BuildContacts, MissingSidesAreNamed) {
   Case a;
   a.card.surfa = 9, a.card.surfatyp = 4;

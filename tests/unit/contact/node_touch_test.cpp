@@ -149,6 +149,46 @@ TEST(NodeContactTouch, FrictionWorksBetweenBothSides) {
   }
 }
 
+// CNTCO: thickness counts from planes that are `lift` off the nodes along the normals, z of the face and -z
+// of the node's own one. Both at z = 0: they touch at 0.03 + 0.03, more where a plane lies on the side of the
+// other.
+TEST(NodeContactTouch, CountsThicknessFromLiftedPlanes) {
+  for (const Real side : {1, -1})
+    for (const Real of_face : {-0.02, 0.0, 0.02})
+      for (const Real of_node : {-0.01, 0.0, 0.01}) {
+        TouchScene scene;
+        scene.at = Vec(0.5, 0.2, side * 0.1), scene.v = Vec(0, 0, -side);
+        scene.change = [&](ContactSides& sides) {
+          sides.faces[0].two_sided = sides.own[0].two_sided = true;
+          sides.faces[0].r = sides.nodes[0].r = 0.03;
+          sides.faces[0].lift = of_face, sides.own[0].lift = of_node;
+          sides.nodes[0].most_lift = std::abs(of_node);
+        };
+        scene.build();
+        scene.step(0), scene.step(0.08);
+        const Real depth = 0.06 + side * (of_face + of_node) - 0.02;
+        EnergyLedger ledger;
+        scene.contact->sample(scene.world, scene.clock, ledger);
+        EXPECT_NEAR(ledger.contact, 0.5 * 2.5 * depth * depth, 1e-14) << side << of_face << of_node;
+        EXPECT_GT(side * scene.force_on(4)[2], 0);
+      }
+}
+
+// What its spring holds where it goes through is dissipated, so that the balance closes.
+TEST(NodeContactTouch, LosesWhatItStoresByALeak) {
+  TouchScene scene;
+  scene.build();
+  come(scene, Vec(0, 0, -1));
+  EXPECT_EQ(recorded(scene).dissipated, 0);
+  scene.step(2.1);
+  EXPECT_EQ(scene.world.counters.at("leaked_nodes"), 1);
+  const Real depth = 0.004 + 1e-4 + 2.1;
+  const EnergyLedger ledger = recorded(scene);
+  EXPECT_NEAR(ledger.dissipated, 0.5 * 2.5 * depth * depth, 1e-12);
+  EXPECT_EQ(ledger.throughput, ledger.dissipated);
+  EXPECT_EQ(recorded(scene).dissipated, 0) << "once";
+}
+
 // At its death what it stores is lost, and told as its own.
 TEST(NodeContactTouch, LosesWhatItStoresAtItsDeath) {
   TouchScene scene;

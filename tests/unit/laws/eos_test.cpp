@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -34,6 +35,21 @@ std::shared_ptr<EosLaw> law_of(const EosEntry& kind, const std::string& cards, R
 }
 
 }  // namespace
+
+TEST(EosRegistry, NamesTheFieldOfNearlyIncompressibleLiquidsOnly) {
+  const std::vector<std::array<std::string, 3>> known = {
+      {"EOS_LINEAR_POLYNOMIAL", "1,0.0,9.0e5\n", "C1"},
+      {"EOS_LINEAR_POLYNOMIAL", "1,0.0,2.2e9,9.5e9,1.5e10\n", ""},  // a fit to a shock curve
+      {"EOS_LINEAR_POLYNOMIAL", "1,0.0,2.2e9,0.0,1.5e10\n", ""},
+      {"EOS_MURNAGHAN", "1,7.0,1.0e6\n", "K0"},
+      {"EOS_GRUNEISEN", "1,1484.0\n", "C"},
+      {"EOS_GRUNEISEN", "1,1484.0,1.979\n", ""},
+      {"EOS_TABULATED", "1\n0.1,0.0,-0.5\n\n-1.0,0.0,10.0\n\n", ""},
+      {"EOS_JWL", "1,7.4e11,2.7e10,2.0,1.0,0.5\n", ""}};
+  for (const auto& [keyword, cards, field] : known)
+    for (const EosEntry& kind : eos_registry())
+      if (kind.keyword == keyword) EXPECT_EQ(law_of(kind, cards, 1000)->stiffness_field(), field) << cards;
+}
 
 TEST(EosRegistry, HoldsTheLawsAndEachHasReferences) {
   std::set<std::string> names;

@@ -216,6 +216,44 @@ RigidBody given(const std::string& position, const std::string& axes, const std:
 
 }  // namespace
 
+// IRIGID: the fields of *INITIAL_VELOCITY and its _GENERATION replace the velocity of *PART_INERTIA where
+// they name the body: v + omega x (centre - XC), here (0, 0, 3) x (0.3, -0.8, 0.1) = (2.4, 0.9, 0). Else they
+// do not.
+TEST(BodyTerms, IrigidReplacesTheVelocityOfAGivenInertia) {
+  const std::string at = "0.3,0.2,0.1,10.0,0,0\n",
+                    sets =
+                        "*SET_PART_LIST\n4\n1\n*SET_NODE_LIST\n5\n"
+                        "1,2,3,4,5,6,7,8\n*SET_NODE_LIST\n6\n1,2,3\n*DEFINE_BOX\n7,0.0,0.4,0.0,0.4,0.0,0.4\n"
+                        "*DEFINE_BOX\n8,0.4,1.0,0.0,0.4,0.0,0.4\n";
+  const Vec own(1, 2, 3), own_omega(0.5, -1, 2), spun(7.4, 6.9, 7), omega(0, 0, 3), straight(5, 6, 7);
+  const auto expect = [&](const std::string& cards, const Vec& v, const Vec& w) {
+    const RigidBody b = given(at, "", sets + cards);
+    EXPECT_NEAR((b.v - v).norm() + (b.omega - w).norm(), 0, 1e-12) << cards;
+  };
+  const auto generation = [](const std::string& id_styp, const std::string& irigid) {
+    return "*INITIAL_VELOCITY_GENERATION\n" + id_styp + ",3.0,5.0,6.0,7.0\n0.0,1.0,0.0,0.0,0.0,2.0,0," +
+           irigid + "\n";
+  };
+  for (const char* id : {"0,1", "4,1", "1,2", "5,3"}) {
+    expect(generation(id, "1"), spun, omega);
+    expect(generation(id, "0"), own, own_omega);
+  }
+  expect(generation("6,3", "1"), own, own_omega);  // some of its nodes
+  const auto plain = [](const std::string& box, const std::string& irigid) {
+    return "*INITIAL_VELOCITY\n0,0," + box + "," + irigid + "\n5.0,6.0,7.0\n";
+  };
+  for (const char* irigid : {"4", "-1", "-2"}) {
+    expect(plain("0", irigid), straight, Vec::Zero());
+    expect(plain("7", irigid), straight, Vec::Zero());
+  }
+  expect(plain("8", "4"), own, own_omega);  // its centre is not in the box
+  expect(plain("8", "-1"), own, own_omega);
+  expect(plain("8", "-2"), straight, Vec::Zero());
+  expect(plain("0", "0"), own, own_omega);
+  expect(plain("0", "-2") + generation("0,1", "1"), spun, omega);
+  expect(generation("0,1", "1") + "*INITIAL_VELOCITY_RIGID_BODY\n1,1.0,1.0,1.0\n", Vec(1, 1, 1), Vec::Zero());
+}
+
 // NODEID is the centre whatever XC to ZC; IRCS 1: x along XL, z along XL x XLIP, or the axes of CID.
 TEST(BodyTerms, GivenInertiaIsWhereAndAlongWhatItsCardSays) {
   Matrix local;
