@@ -7,8 +7,8 @@
 
 namespace courant {
 
-/// Where `excess`, > 0 at 0 and <= 0 at `high`, is 0: inverse quadratic interpolation where it is safe,
-/// bisection elsewhere (Chandrupatla 1997), from a secant on.
+/// Where `excess`, > 0 at 0 and <= 0 at `high`, is 0 below `high`: inverse quadratic interpolation where it
+/// is safe, bisection elsewhere (Chandrupatla 1997), from a secant on.
 template <class Excess>
 Real root_below(Real high, const Excess& excess) {
   constexpr int rounds = 200;
@@ -18,6 +18,7 @@ Real root_below(Real high, const Excess& excess) {
   if (!(high > 0) || !(at_x > 0)) return 0;
   if (at_y > 0) return high;
   Real t = at_x / (at_x - at_y);
+  if (!(t < 1)) t = 0.5;  // a root at `high` itself is none, nor is a secant of infinities
   for (int k = 0; k < rounds; ++k) {
     const Real now = x + t * (y - x), at_now = excess(now);
     Real z = x, at_z = at_x;
