@@ -300,7 +300,7 @@ void MatSamp1::check_surface(const Deck& deck, const Model& model, Diagnostics& 
   for (const Id id : {lcid_t, lcid_c, lcid_s, lcid_b})
     if (const Curve* curve = PolymerYield::find(model, id)) end = std::max(end, curve->abscissa.back());
   constexpr int parts = 64;
-  bool concave = false;
+  bool concave = false, ambiguous = false;
   for (int k = 0; k <= parts; ++k) {
     const Real e = end * k / parts;
     const PressureSurface surface = yield(e, 0);
@@ -309,7 +309,18 @@ void MatSamp1::check_surface(const Deck& deck, const Model& model, Diagnostics& 
                         fmt::format("no surface has these yield stresses at a plastic strain of {:g}", e),
                         "stresses that a material can have in tests of one and of two directions");
     concave = concave || !surface.is_convex();
+    // q falls by 3 G q, p by K alpha p: more than the strength falls where compression flows
+    const Real c = lcid_c != 0 ? PolymerYield::find(model, lcid_c)->ordinate.front() : surface(0), p = c / 3;
+    const Real nu = yield.ratio(e), flow = 4.5 * (1 - 2 * nu) / (1 + nu) * p;
+    constexpr Real small = 1e-4;
+    const Real slope = (surface((1 + small) * p) - surface((1 - small) * p)) / (2 * small * p);
+    ambiguous = ambiguous || !(emod / (2 * (1 + nue)) * 3 * c > emod / (3 * (1 - 2 * nue)) * flow * slope);
   }
+  if (ambiguous)
+    deck.warning(diagnostics, *this, lcid_p != 0 ? "LCID-P" : "NUEP",
+                 "stresses in compression are not unique: as it flows the strength falls with the pressure "
+                 "faster than the stress",
+                 "a larger plastic Poisson ratio, or tests whose yield stresses differ less");
   if (concave)
     deck.warning(diagnostics, *this, lcid_s != 0 ? "LCID-S" : "LCID-B",
                  "the yield surface is not convex: stresses between the tests are uncertain",

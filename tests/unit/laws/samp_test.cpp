@@ -46,8 +46,8 @@ enum class Kind { tension, compression, shear, biaxial_tension, biaxial_compress
 struct Drawn {
   Real stress, strain, across;  ///< plastic strains along and across the test
 };
-/// `steps` of a test with strains of `size`.
-Drawn drawn(DrivenPoint& point, Kind test, int steps, Real size) {
+/// `steps` of a test with strains of `size`; `across`: about the Poisson ratio.
+Drawn drawn(DrivenPoint& point, Kind test, int steps, Real size, Real across = nu) {
   const Real sign = test == Kind::compression || test == Kind::biaxial_compression ? -1 : 1;
   std::array<Real, 6> sum{};
   for (int k = 0; k < steps; ++k) {
@@ -56,10 +56,10 @@ Drawn drawn(DrivenPoint& point, Kind test, int steps, Real size) {
     if (test == Kind::shear) {
       step[3] = size;
     } else if (test == Kind::tension || test == Kind::compression) {
-      step = {sign * size, -0.4 * sign * size, -0.4 * sign * size};
+      step = {sign * size, -across * sign * size, -across * sign * size};
       free = {1, 2};
     } else {
-      step = {sign * size, sign * size, -sign * size};
+      step = {sign * size, sign * size, -2 * across / (1 - across) * sign * size};
       free = {2};
     }
     if (point.plane && !free.empty()) free.pop_back();
@@ -74,21 +74,35 @@ Drawn drawn(DrivenPoint& point, Kind test, int steps, Real size) {
   return {sign * s, sign * (sum[0] - (1 - nu) * s / E), sign * (sum[2] + 2 * nu * s / E)};
 }
 
-/// What a test bears at a plastic strain of its own.
+/// A test strained to a plastic strain of its own bears `stress` of it, and nothing across.
 void expect_bears(const std::string& cards, Kind test, const std::function<Real(Real)>& stress, Real ratio) {
   for (const bool plane : {false, true}) {
     DrivenPoint point(law(cards), plane);
-    const Drawn d = drawn(point, test, 60, 2e-3);
-    EXPECT_NEAR(d.stress, stress(d.strain), 1e-8 * d.stress) << cards << int(test) << plane;
-    EXPECT_GT(d.strain, 0.04);
-    const Real e = point.of("plastic_strain");
-    if (test == Kind::shear) {
-      EXPECT_NEAR(d.strain, (1 + ratio) / std::sqrt(3.0) * e, 1e-10);
-    } else if (test == Kind::tension || test == Kind::compression) {
-      EXPECT_NEAR(d.strain, e, 1e-10);
-      EXPECT_NEAR(d.across, -ratio * e, 1e-8);
-    } else {
-      EXPECT_NEAR(d.strain, (1 - ratio) * e, 1e-10);
+    std::array<Real, 6> old{};
+    for (int k = 0; k <= 40; ++k) {
+      const Real own = 2e-3 * k, s = stress(own);
+      std::array<Real, 6> now{}, bears{};
+      Real e = own;
+      if (test == Kind::shear) {
+        now[3] = own + s / (2 * G), bears[3] = s, e = std::sqrt(3.0) / (1 + ratio) * own;
+      } else if (test == Kind::tension || test == Kind::compression) {
+        const Real sign = test == Kind::tension ? 1 : -1, across = -sign * (ratio * own + nu * s / E);
+        now = {sign * (own + s / E), across, across}, bears[0] = sign * s;
+      } else {
+        const Real sign = test == Kind::biaxial_tension ? 1 : -1, along = sign * (own + (1 - nu) * s / E);
+        e = own / (1 - ratio);
+        now = {along, along, -sign * 2 * (ratio * e + nu * s / E)}, bears[0] = bears[1] = sign * s;
+      }
+      std::array<Real, 6> step = now;
+      for (std::size_t c = 0; c < 6; ++c) step[c] -= old[c];
+      point.strain(step);
+      for (std::size_t c = 0; c < 6; ++c)
+        EXPECT_NEAR(point.stress[c], bears[c], 1e-8 * s) << cards << int(test) << plane << k << " " << c;
+      EXPECT_NEAR(point.of("plastic_strain"), e, 1e-10);
+      if (plane) {
+        EXPECT_NEAR(point.rate_zz, step[2], 1e-10);
+      }
+      old = now;
     }
   }
 }
@@ -97,7 +111,7 @@ void expect_bears(const std::string& cards, Kind test, const std::function<Real(
 
 // Each given curve is met in its own test, with the plastic Poisson ratio of the card across.
 TEST(Samp, BearsWhatItsTestsDid) {
-  for (const Real r : {0.0, 0.3, 0.5}) {
+  for (const Real r : {0.2, 0.3, 0.5}) {
     for (const char* given : {"1", "1,2", "1,0,3", "1,0,0,4", "1,2,3", "1,2,0,4", "1,0,3,4", "1,2,3,4"}) {
       const std::string name = given;
       const bool has_c = name.find('2') != std::string::npos, has_s = name.find('3') != std::string::npos,
@@ -187,7 +201,7 @@ TEST(Samp, FlowsAlongItsPotential) {
     }
     old = s;
   }
-  EXPECT_GT(flown, 100);
+  EXPECT_GT(flown, 60);
 }
 
 // A path in the plane is that in space with the stress across at 0.
@@ -201,11 +215,12 @@ TEST(Samp, PlaneStressIsThatOfSpace) {
           3e-3 * std::cos(a),       3e-3 * std::sin(1.7 * a), 0,
           2e-3 * std::sin(0.9 * a), 5e-4 * std::cos(a),       5e-4 * std::sin(2 * a)};
       plane.strain(step);
-      const auto full = space.strain_with_free(step, {2});
-      for (std::size_t j = 0; j < 6; ++j) EXPECT_NEAR(plane.stress[j], space.stress[j], 1e-7) << tests << k;
-      EXPECT_NEAR(plane.rate_zz, full[2], 1e-9) << k;
+      std::array<Real, 6> full = step;
+      full[2] = plane.rate_zz;
+      space.strain(full);
+      for (std::size_t j = 0; j < 6; ++j) EXPECT_NEAR(plane.stress[j], space.stress[j], 1e-9) << tests << k;
       for (std::size_t h = 0; h < plane.history.size(); ++h)
-        EXPECT_NEAR(plane.history[h], space.history[h], 1e-9) << k;
+        EXPECT_NEAR(plane.history[h], space.history[h], 1e-11) << k;
     }
     EXPECT_GT(plane.of("plastic_strain"), 0.1);
   }
