@@ -309,12 +309,16 @@ void MatSamp1::check_surface(const Deck& deck, const Model& model, Diagnostics& 
                         fmt::format("no surface has these yield stresses at a plastic strain of {:g}", e),
                         "stresses that a material can have in tests of one and of two directions");
     concave = concave || !surface.is_convex();
-    // q falls by 3 G q, p by K alpha p: more than the strength falls where compression flows
-    const Real c = lcid_c != 0 ? PolymerYield::find(model, lcid_c)->ordinate.front() : surface(0), p = c / 3;
-    const Real nu = yield.ratio(e), flow = 4.5 * (1 - 2 * nu) / (1 + nu) * p;
-    constexpr Real small = 1e-4;
-    const Real slope = (surface((1 + small) * p) - surface((1 - small) * p)) / (2 * small * p);
-    ambiguous = ambiguous || !(emod / (2 * (1 + nue)) * 3 * c > emod / (3 * (1 - 2 * nue)) * flow * slope);
+    // compressed along one axis, or two: flow lowers q by 3 G q and p by K alpha p
+    for (const Real p_of_q : {1.0 / 3, 2.0 / 3}) {
+      Real q = surface(0);
+      for (int round = 0; round < 40; ++round) q = surface(p_of_q * q);
+      const Real p = p_of_q * q, nu = yield.ratio(e), alpha = 4.5 * (1 - 2 * nu) / (1 + nu);
+      constexpr Real small = 1e-4;
+      const Real slope = (surface((1 + small) * p) - surface((1 - small) * p)) / (2 * small * p);
+      const Real of_q = 3 * emod / (2 * (1 + nue)) * q, of_p = emod / (3 * (1 - 2 * nue)) * alpha * p * slope;
+      ambiguous = ambiguous || (std::isfinite(q) && q > 0 && !(of_q > of_p));
+    }
   }
   if (ambiguous)
     deck.warning(diagnostics, *this, lcid_p != 0 ? "LCID-P" : "NUEP",

@@ -27,14 +27,14 @@ Real C(Real e) {
   return 55 + 20 * e;
 }
 Real S(Real e) {
-  return 28 + 10 * e;
+  return 28 + 20 * e;
 }
 Real B(Real e) {
   return 37 + 15 * e;
 }
 const std::string curves =
     "*DEFINE_CURVE\n1\n0.0,40.0\n1.0,70.0\n*DEFINE_CURVE\n2\n0.0,55.0\n1.0,75.0\n*DEFINE_CURVE\n3\n0.0,28.0\n"
-    "1.0,38.0\n*DEFINE_CURVE\n4\n0.0,37.0\n1.0,52.0\n";
+    "1.0,48.0\n*DEFINE_CURVE\n4\n0.0,37.0\n1.0,52.0\n";
 std::string samp(const std::string& tests, Real nuep, const std::string& rest = "\n", Real rbcfac = 0) {
   return fmt::format("1,1.2e-9,0,0,{},{},{}\n{},{}\n{}{}", E, nu, rbcfac, tests, nuep, rest, curves);
 }
