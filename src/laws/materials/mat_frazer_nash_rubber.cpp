@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <Eigen/Eigenvalues>
 
+#include "base/eigenvalues.hpp"
 #include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
 #include "laws/strength/left_cauchy_green.hpp"
@@ -69,10 +69,12 @@ class FrazerNash : public StrengthLaw {
   /// rho0 c^2 of a wave along a principal axis: l^2 d2W/dl2 = b S + b^2 dS/dE + J^2 f'', S = u1 + u2 (I1 -
   /// E).
   Real stiffest(const Symmetric& b, const Slopes& u, Real I1, Real J) const {
-    const Vec along = Eigen::SelfAdjointEigenSolver<Matrix>(b.matrix(), Eigen::EigenvaluesOnly).eigenvalues();
+    const Matrix at = b.matrix();
+    const Real least = least_eigenvalue(at), largest = -least_eigenvalue(Matrix(-at));
+    const Real along[3] = {least, b.trace() - least - largest, largest};
     Real most = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Real l2 = along[k], rest = I1 - 0.5 * (l2 - 1);
+    for (const Real l2 : along) {
+      const Real rest = I1 - 0.5 * (l2 - 1);
       most = std::max(most,
                       l2 * (u.u1 + u.u2 * rest) + l2 * l2 * (u.u11 + 2 * u.u12 * rest + u.u22 * rest * rest));
     }
