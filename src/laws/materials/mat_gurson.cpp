@@ -125,7 +125,8 @@ class Gurson : public StrengthLaw {
       return Y * std::sqrt(std::max(1 + F * F - 2 * F * std::cosh(b * x), Real(0)));
     };
     constexpr int most_rounds = 100;
-    for (int k = 0; k < most_rounds && high - low > 1e-15 * high; ++k) {
+    constexpr Real round_off = 1e-15;
+    for (int k = 0; k < most_rounds && high - low > round_off * high; ++k) {
       left = q_at(m);
       const Real S = F * std::sinh(b * m), C = F * std::cosh(b * m);
       const Real over = (size - m) / K_ * 2 * left - (q - left) / G_ * c_.q2 * Y * S;
@@ -134,7 +135,7 @@ class Gurson : public StrengthLaw {
       const Real slope =
           -2 * left / K_ + (size - m) / K_ * 2 * by + (by * S - (q - left) * C * b) / G_ * c_.q2 * Y;
       const Real next = left > 0 && slope < 0 ? m - over / slope : -1;
-      if (over == 0) break;
+      if (over == 0 || std::abs(next - m) <= round_off * m) break;
       m = next > low && next < high ? next : 0.5 * (low + high);
     }
     left = q_at(m);

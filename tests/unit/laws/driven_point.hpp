@@ -58,8 +58,13 @@ struct DrivenPoint {
         moved[free[k]] += 1e-6 * size;
         slope.col(static_cast<long>(k)) = (left(moved) - now) / (1e-6 * size);
       }
-      const Eigen::VectorXd by = slope.fullPivLu().solve(now);
-      for (std::size_t k = 0; k < free.size(); ++k) step[free[k]] -= by[static_cast<long>(k)];
+      Eigen::VectorXd by = slope.fullPivLu().solve(now);
+      const std::array<Real, 6> from = step;
+      for (int halved = 0; halved < 8; ++halved, by *= 0.5) {  // less where flow begins or ends on its way
+        for (std::size_t k = 0; k < free.size(); ++k)
+          step[free[k]] = from[free[k]] - by[static_cast<long>(k)];
+        if (left(step).norm() < now.norm()) break;
+      }
     }
     left(step);
     return step;
