@@ -128,6 +128,8 @@ class Basin:
     inlets: list[Inlet] = field(default_factory=list)
     outlets: list[Outlet] = field(default_factory=list)
     method: str = "contact"  # how walls act on the water: by contact, as mirrors, by ghost particles, or mixed: box and bodies as mirrors, other walls by contact
+    level: float | None = None  # of water at rest between walls [L]
+    still: bool = False  # it stays so, and walls have ghosts for that
 
     @property
     def sides(self) -> tuple[str, ...]:
@@ -197,14 +199,19 @@ class Basin:
         return self.viscosity or 0.0
 
     def start(self) -> PlaceExpression | None:
-        """Hydrostatic pressure of water at rest on the floor of its box, all of it with one surface."""
+        """Hydrostatic pressure of water at rest on the floor of its box, or between walls of any shape, all of it with one surface."""
         up, dx = self.dim - 1, self.spacing
-        if not self.mirrors or self.gravity == 0 or not self.box or not self.water.lattices or self.water.velocity or self.water.velocity_of_place:
+        if not self.mirrors or self.gravity == 0 or not self.water.lattices or self.water.velocity or self.water.velocity_of_place:
+            return None
+        weight = number_text(self.density * self.gravity)
+        if self.level is not None:
+            return PlaceExpression(f"{weight} * ({number_text(self.level)} - {'xyz'[up]})", self.water.where)
+        if not self.box:
             return None
         tops = [min(one.low[up] + dx * one.n[up], float(one.solids[0].shape.high[up]) if one.solids else math.inf) for one in self.water.lattices]
         if max(tops) - min(tops) > 1e-6 * dx or min(one.low[up] for one in self.water.lattices) > self.box[0][up] + dx / 2:
             return None
-        return PlaceExpression(f"{number_text(self.density * self.gravity)} * ({number_text(max(tops))} - {'xyz'[up]})", self.water.where)
+        return PlaceExpression(f"{weight} * ({number_text(max(tops))} - {'xyz'[up]})", self.water.where)
 
     def plate(self, axis: int, at: float, mesh: float) -> Plate:
         """One side of the box, across `axis`."""

@@ -17,6 +17,7 @@ from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
+from .still_water import has_oblique_walls, is_dry_behind, stays_still, still_water
 from .structure_checks import check_structures
 from .structure_reader import read_structures
 from .water_checks import check_overlaps, check_piston, positions
@@ -75,6 +76,9 @@ class BasinReader(ShapeReader):
             check_inlets(self, basin)
         if self.diagnostics.errors == before:
             self.fill(basin)
+            self.keep_out(basin)
+            if self.diagnostics.errors == before:
+                self.examine_rest(root, basin)
             self.check_solids(basin)
             check_structures(basin, self.diagnostics)
             self.check_water(basin)
@@ -308,13 +312,36 @@ class BasinReader(ShapeReader):
             lattice.solids, lattice.location = [Near(shape)], self.at(node)
             self.add_entities(node, float(np.prod(n)))
             basin.water.lattices.append(lattice)
-        # contact acts at half a spacing; before ghosts at 0.2, so that points of the lattice on both sides of a wall are water or ghosts
-        gap = 0.25 if basin.method == "ghosts" else 0.5
-        out = [Near(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
-        out += [NearSurface(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if not solid.closed and self._is_closed(solid.shape)]
-        out += [one.keeps_out(basin.dim, dx) for one in basin.structures]
+
+    @staticmethod
+    def keep_out(basin: Basin) -> None:
+        """Water keeps half a spacing free beside solids and thin walls, where contact acts; before ghosts less, so that points of the lattice on both
+        sides of a wall are water or ghosts."""
+        inside, beside = (0.25, 0.2) if basin.method == "ghosts" else (0.5, 0.5)  # along an axis, and across a wall
+        dx = basin.spacing * (1 - 1e-6)
+        out = [Near(one.shape, inside * dx) if one.closed or one.shape.ground else NearSurface(one.shape, beside * dx) for one in basin.solids]
+        out += [one.keeps_out(basin.dim, basin.spacing) for one in basin.structures]
         for lattice in basin.water.lattices:
             lattice.without = out
+
+    def examine_rest(self, root: Node, basin: Basin) -> None:
+        """Of water at rest between walls: its pressure follows from its level, and in the plane, where walls are oblique and nothing
+        will move it, they have ghosts."""
+        node = self.get(root, "wall_method")
+        oblique = basin.dim == 2 and (node is None or self.text(node) == "auto") and has_oblique_walls(basin) and stays_still(basin, self._cards(root))
+        unknown = basin.mirrors and basin.start() is None
+        if not (basin.box or basin.solids) or not (oblique or unknown) or (water := still_water(basin, self.variables)) is None:
+            return
+        if unknown:
+            basin.level = water.level
+        if oblique and is_dry_behind(basin, water.points):
+            basin.method, basin.still = "ghosts", True
+            self.keep_out(basin)
+
+    def _cards(self, root: Node) -> list[str]:
+        """Deck text beside that of the scene, and of its bases."""
+        nodes = [self.get(one, "keywords") for one in (root, *(base.node for base in self.bases))]
+        return [str(one.value) for node in nodes if node is not None for one in (node.value if is_list(node) else [node]) if is_scalar(one)]
 
     @staticmethod
     def _origin(basin: Basin) -> np.ndarray:
