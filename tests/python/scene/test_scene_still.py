@@ -47,12 +47,12 @@ def test_distances_are_those_from_each_face() -> None:
     a, b = np.meshgrid(t, t)
     on = a.reshape(-1, 1) * np.array([1.0, 0, 0.2]) + b.reshape(-1, 1) * np.array([0.3, 1.0, 0])
     brute = np.linalg.norm(x[:, None] - on[None], axis=2).min(axis=1)
-    assert np.allclose(near[brute < 0.39], brute[brute < 0.39], atol=0.004) and np.isinf(near[brute > 0.41]).all()
+    assert np.allclose(near[brute < 0.39], brute[brute < 0.39], atol=6e-3) and np.isinf(near[brute > 0.41]).all()
     flat = x * [1, 1, 0]
     line = distances(polyline(np.array([[0, 0], [1, 0], [1, 1]]), closed=False), flat, 0.4)
     to_first, to_second = (np.linalg.norm(flat[:, None] - np.stack(p, axis=1)[None], axis=2).min(axis=1) for p in ((t, 0 * t, 0 * t), (0 * t + 1, t, 0 * t)))
     brute = np.minimum(to_first, to_second)
-    assert np.allclose(line[brute < 0.39], brute[brute < 0.39], atol=1e-3) and np.isinf(line[brute > 0.41]).all()
+    assert np.allclose(line[brute < 0.39], brute[brute < 0.39], atol=3e-3) and np.isinf(line[brute > 0.41]).all()
     assert not len(distances(triangle, x[:0], 0.4)) and np.isinf(distances(box(np.zeros(3), np.ones(3), 3), x + 9, 0.4)).all()
 
 

@@ -187,11 +187,11 @@ class Basin:
         """Walls of the plane are one unit deep, as bodies are whose mass counts per unit of depth."""
         return self.mirrors or bool(self.solids) or bool(self.structures)
 
-    def rigid_parts(self) -> dict[str, int]:
-        """Numbers of the parts of the box, walls and bodies by their titles, in this order."""
+    def rigid_parts(self) -> dict[int, str]:
+        """Titles of the parts of the box, walls and bodies by their numbers, in this order."""
         number_parts(self.solids)
-        box = {"walls": WALL_PART} if self.box and len(self.open) < len(self.sides) else {}
-        return box | {solid.shape.name: solid.part for solid in self.solids}
+        box = {WALL_PART: "walls"} if self.box and len(self.open) < len(self.sides) else {}
+        return box | {solid.part: solid.shape.name for solid in self.solids}
 
     @property
     def friction(self) -> float:

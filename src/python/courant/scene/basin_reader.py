@@ -18,7 +18,7 @@ from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
 from .still_water import has_oblique_walls, is_dry_behind, stays_still, still_water
-from .structure_checks import check_structures
+from .structure_checks import check_bodies, check_structures
 from .structure_reader import read_structures
 from .water_checks import check_overlaps, check_piston, positions
 from .wave_reader import Piston, check_reach, read_waves
@@ -33,6 +33,7 @@ _MOTION = keys_of_map("motion", "x text, y text, z text, waves @waves")
 _OF_WALL = keys_of_map("a wall, besides its shape", "motion @motion")
 _OF_BODY = keys_of_map("a body, besides its shape", "density number, mass number, velocity list, hold any")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
+_FEW = 1000  # cells whose particles are counted
 MOST_MIRRORS = 12  # lines of a shape in the plane
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
@@ -81,8 +82,9 @@ class BasinReader(ShapeReader):
                 self.examine_rest(root, basin)
             self.check_solids(basin)
             check_structures(basin, self.diagnostics)
-            self.check_water(basin)
+            self.check_water(basin, self.get(water, "spacing") or water)
             self.check_bodies_of_the_plane(basin, joined_names(self, root))
+            check_bodies(basin, joined_names(self, root), self.diagnostics)
         self.complete = self.diagnostics.errors == before
         if not self.complete:
             return
@@ -141,7 +143,7 @@ class BasinReader(ShapeReader):
         low, low_dim = self.vector(node, "low")
         high, high_dim = self.vector(node, "high")
         basin.box = (low, high)
-        if low_dim != basin.dim or high_dim != basin.dim:
+        if basin.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
             self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
         opened = self.get(node, "open")
         if opened is not None and not is_list(opened):
@@ -213,8 +215,11 @@ class BasinReader(ShapeReader):
                     self.read_body(entry, solid)
                 basin.solids.append(solid)
 
-    def check_water(self, basin: Basin) -> None:
+    def check_water(self, basin: Basin, spacing: Node) -> None:
         check_overlaps(basin.water.lattices, self.variables, self.diagnostics)
+        if basin.water.lattices and not basin.inlets and sum(np.prod(one.n, dtype=float) for one in basin.water.lattices) < _FEW \
+                and sum(len(positions(one, self.variables)) for one in basin.water.lattices) == 1:
+            self.error(spacing, f"spacing: with {basin.spacing:g} the water is a single particle, which has no neighbours", "a tenth of the depth of the water or less")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
