@@ -198,20 +198,27 @@ class Basin:
         """Linear coefficient of the artificial viscosity: none, as it damps waves."""
         return self.viscosity or 0.0
 
+    @property
+    def starts_at_rest(self) -> bool:
+        return not self.water.velocity and not self.water.velocity_of_place
+
     def start(self) -> PlaceExpression | None:
         """Hydrostatic pressure of water at rest on the floor of its box, or between walls of any shape, all of it with one surface."""
-        up, dx = self.dim - 1, self.spacing
-        if not self.mirrors or self.gravity == 0 or not self.water.lattices or self.water.velocity or self.water.velocity_of_place:
+        up = self.dim - 1
+        level = self.level if self.level is not None else self._level_in_box()
+        if level is None or not self.mirrors or self.gravity == 0 or not self.starts_at_rest:
             return None
-        weight = number_text(self.density * self.gravity)
-        if self.level is not None:
-            return PlaceExpression(f"{weight} * ({number_text(self.level)} - {'xyz'[up]})", self.water.where)
-        if not self.box:
+        return PlaceExpression(f"{number_text(self.density * self.gravity)} * ({number_text(level)} - {'xyz'[up]})", self.water.where)
+
+    def _level_in_box(self) -> float | None:
+        """Of the blocks, where they all have it and the lowest is on the floor [L]."""
+        up, dx = self.dim - 1, self.spacing
+        if not self.box or not self.water.lattices:
             return None
         tops = [min(one.low[up] + dx * one.n[up], float(one.solids[0].shape.high[up]) if one.solids else math.inf) for one in self.water.lattices]
         if max(tops) - min(tops) > 1e-6 * dx or min(one.low[up] for one in self.water.lattices) > self.box[0][up] + dx / 2:
             return None
-        return PlaceExpression(f"{weight} * ({number_text(max(tops))} - {'xyz'[up]})", self.water.where)
+        return max(tops)
 
     def plate(self, axis: int, at: float, mesh: float) -> Plate:
         """One side of the box, across `axis`."""

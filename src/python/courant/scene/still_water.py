@@ -34,7 +34,7 @@ class StillWater:
 def still_water(basin: Basin, variables: Variables) -> StillWater | None:
     """The water of a scene where it has one level surface and ends everywhere else at a wall; None otherwise."""
     water, dx, up = basin.water, basin.spacing, basin.dim - 1
-    if not water.lattices or water.velocity or water.velocity_of_place or basin.inlets or basin.structures:
+    if not water.lattices or not basin.starts_at_rest or basin.inlets or basin.structures:
         return None
     points = np.concatenate([positions(replace(one, jitter=0.0), variables) for one in water.lattices])
     if not len(points):
