@@ -35,3 +35,11 @@ def test_means_of_long_intervals_are_those_of_short_ones(tmp_path: Path) -> None
     coarse, fine = (falling("mirrors", output=output, end=0.1).run(tmp_path / str(output), threads=1, quiet=True).wall_force() for output in (0.2, 0.002))
     assert len(coarse["t"]) < 8 < 200 < len(fine["t"])
     assert np.interp(coarse["t"], fine["t"], fine["impulse.y"]) == pytest.approx(coarse["impulse.y"], rel=0.01, abs=0.05)
+
+
+def test_impulses_go_on_after_a_restart(tmp_path: Path) -> None:
+    scene = falling("mirrors", end=0.1)
+    whole = scene.run(tmp_path / "whole", threads=1, quiet=True).wall_force()
+    scene.run(tmp_path / "half", threads=1, quiet=True, until=0.06)
+    rest = scene.run(tmp_path / "rest", threads=1, quiet=True, restart=tmp_path / "half").wall_force()
+    assert rest["impulse.y"][-1] == whole["impulse.y"][-1] != 0

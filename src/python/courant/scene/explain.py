@@ -33,6 +33,8 @@ def explain_basin(basin: Basin, model: Model) -> None:
         right = "beside mirrors pressure is right in all rows, where contact alone gives 1.39 of it in the lowest"
         cheap = "shells push particles back that come nearer than half a spacing; cheap, but the lowest row has 1.39 of its pressure"
         dear = "; walls of other shapes act by contact, as mirrors of many faces take most of the time of a run; bodies are mirrors, as contact lets them sink too deep"
+        if basin.dim == 3 and basin.mirrors and any(solid.free for solid in basin.solids):
+            right += "; beside edges of bodies in space they take some 100 us per particle and step, ghosts some 3 us in calm water"
         behind = "fixed ghost particles continue the lattice of the water behind walls: right on walls of any slope, for walls that are dry on one side"
         if basin.still:
             behind += "; taken as the water is at rest and nothing moves it: mirrors leave it in motion beside oblique walls"
