@@ -128,10 +128,12 @@ void History::put_entities(const Sample& s) {
     put(group + "/momentum", "ML/T", part.momentum);
     put(group + "/hourglass", energy, part.hourglass);
   }
-  for (const InterfaceForce& contact : s.interfaces) {
+  for (std::size_t k = 0; k < s.interfaces.size(); ++k) {
+    const InterfaceForce& contact = s.interfaces[k];
     const std::string group = fmt::format("/contacts/{}", contact.id);
     titles_[group] = contact.title;
     put(group + "/force", "ML/T2", contact.on_surfa);
+    if (!s.impulses.empty()) put(group + "/impulse", "ML/T", s.impulses[k]);
     put(group + "/energy_stored", energy, contact.energy_stored);
     put(group + "/energy_damping", energy, contact.energy_damping);
     put(group + "/energy_friction", energy, contact.energy_friction);

@@ -80,6 +80,7 @@ struct Sample {
   Vec velocity = Vec::Zero();  ///< of the centre of that mass [L/T]
   std::vector<PartSample> parts;
   std::vector<InterfaceForce> interfaces;
+  std::vector<Vec> impulses;  ///< of their forces on SURFA so far; empty: not asked for [ML/T]
   std::vector<RigidBodyReport> bodies;
   std::vector<RigidBodyMotion> body_motions;  ///< in the order of `bodies`
   std::vector<ParticleSample> particles;      ///< those of DATABASE_HISTORY_SPH, by id

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "app/run/interface_impulses.hpp"
 #include "app/run/momentum_watch.hpp"
 #include "app/run/simulation.hpp"
 #include "elements/shape_watch.hpp"
@@ -180,18 +181,6 @@ void sample_boundary_forces(const World& world, const Clock& clock, std::vector<
   });
 }
 
-/// A contact may act on particles and on nodes.
-void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) {
-  for (InterfaceForce& known : all) {
-    if (known.id != one.id) continue;
-    known.on_surfa += one.on_surfa;
-    known.energy_stored += one.energy_stored, known.energy_damping += one.energy_damping;
-    known.energy_friction += one.energy_friction;
-    return;
-  }
-  all.push_back(one);
-}
-
 AddedSample added_sample(const AsciiHistory& added, const Deck& deck, const World& world,
                          const Clock& clock) {
   AddedSample out;
@@ -229,11 +218,9 @@ void Simulation::sample_all(const std::string& dt_controlled_by, Sample& s) {
   sample_parts(world_, model_, s);
   for (auto* watch : world_.passes.all<MomentumWatch>()) watch->look(s, world_);
   for (auto* watch : world_.passes.all<ShapeWatch>()) watch->look(world_, clock_.cycle);
-  for (const auto& contact : contacts()) s.interfaces.push_back(contact->report());
-  for (const auto* nodes : world_.passes.all<const InterfaceReporter>())
-    add_interface(nodes->report(), s.interfaces);
-  for (const auto* walls : world_.passes.all<const WallForceReporter>())
-    s.interfaces.push_back(walls->report(world_));
+  s.interfaces = interface_forces(world_, contacts());
+  for (const auto* impulses : world_.passes.all<InterfaceImpulses>())
+    s.impulses = impulses->so_far(s.interfaces.size());
   sample_boundary_forces(world_, clock_, s.boundary_forces);
   for (const auto* wall : world_.passes.all<const RigidWallReporter>())
     s.rigid_walls.push_back(wall->report_wall());

@@ -433,7 +433,8 @@ class Results:
 
     def wall_force(self, *ids: int) -> Table:
         """Total force that contacts exert on their walls over time: of those with these ids (0 are the mirrors), or of all. In a scene with bodies, whose
-        contact with walls is 2, `wall_force(0, 1)` is the force of the water on walls and bodies. Raises KeyError with the ids there are."""
+        contact with walls is 2, `wall_force(0, 1)` is the force of the water on walls and bodies. `force.x` is the value of one moment; `mean.x` that over
+        the interval before it and `impulse.x` [ML/T] that so far are integrals over all steps, and miss no impact. Raises KeyError with the ids there are."""
         chosen = ids or tuple(self.contacts)
         for one in chosen:
             if one not in self.contacts and one != 0:
@@ -441,8 +442,14 @@ class Results:
         some = [self.contacts[one] for one in chosen if one in self.contacts]
         if not some:
             raise KeyError("the run has no contacts")
+        t = some[0]["t"]
         columns = [(name, some[0].units[name], -sum(one[name] for one in some)) for name in ("force.x", "force.y", "force.z")]
-        return table_of("wall force", [("t", some[0].units["t"], some[0]["t"]), *columns])
+        for axis, (_, unit, force) in zip("xyz", list(columns)):
+            if all(f"impulse.{axis}" in one for one in some):  # runs of earlier versions have none
+                impulse = -sum(one[f"impulse.{axis}"] for one in some)
+                mean = np.append(force[:1], np.diff(impulse) / np.maximum(np.diff(t), 1e-300))
+                columns += [(f"mean.{axis}", unit, mean), (f"impulse.{axis}", some[0].units[f"impulse.{axis}"], impulse)]
+        return table_of("wall force", [("t", some[0].units["t"], t), *columns])
 
     @cached_property
     def gauges(self) -> dict[str, Table]:

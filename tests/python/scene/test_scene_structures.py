@@ -10,7 +10,7 @@ import courant
 import numpy as np
 import pytest
 from courant.scene import meshes
-from courant.scene.structures import NearShells
+from courant.scene.model import NearSurface
 
 from .made import written
 
@@ -129,7 +129,7 @@ def test_a_surface_without_gmsh_or_thickness_is_refused_with_both_hints(tmp_path
 def test_water_keeps_out_of_the_thickness_of_shells() -> None:
     plate = meshes.plate(np.zeros(3), np.array([1.0, 0, 0]), np.array([0, 1.0, 0]), np.full(3, 0.25))
     x = np.array([[0.5, 0.5, 0.05], [0.5, 0.5, -0.12], [1.05, 0.5, 0], [1.2, 0.5, 0], [1.08, 1.08, 0], [0.3, 0.9, 0.099]])
-    assert NearShells(plate, 0.1).contains(x).tolist() == [True, False, True, False, False, True]
+    assert NearSurface(plate.surface(), 0.1).contains(x).tolist() == [True, False, True, False, False, True]
     deck = tank().structure(line=[(0.1, 0), (0.1, 0.2)], thickness=0.04, material="rubber", fix="bottom").deck()
     assert "$   1 water: 40 particles" in deck  # ten columns less the two within 0.02 + 0.01 of the middle
 

@@ -128,6 +128,8 @@ class Basin:
     inlets: list[Inlet] = field(default_factory=list)
     outlets: list[Outlet] = field(default_factory=list)
     method: str = "contact"  # how walls act on the water: by contact, as mirrors, by ghost particles, or mixed: box and bodies as mirrors, other walls by contact
+    level: float | None = None  # of water at rest between walls [L]
+    still: bool = False  # it stays so, and walls have ghosts for that
 
     @property
     def sides(self) -> tuple[str, ...]:
@@ -185,26 +187,38 @@ class Basin:
         """Walls of the plane are one unit deep, as bodies are whose mass counts per unit of depth."""
         return self.mirrors or bool(self.solids) or bool(self.structures)
 
-    def rigid_parts(self) -> dict[str, int]:
-        """Numbers of the parts of the box, walls and bodies by their titles, in this order."""
+    def rigid_parts(self) -> dict[int, str]:
+        """Titles of the parts of the box, walls and bodies by their numbers, in this order."""
         number_parts(self.solids)
-        box = {"walls": WALL_PART} if self.box and len(self.open) < len(self.sides) else {}
-        return box | {solid.shape.name: solid.part for solid in self.solids}
+        box = {WALL_PART: "walls"} if self.box and len(self.open) < len(self.sides) else {}
+        return box | {solid.part: solid.shape.name for solid in self.solids}
 
     @property
     def friction(self) -> float:
         """Linear coefficient of the artificial viscosity: none, as it damps waves."""
         return self.viscosity or 0.0
 
+    @property
+    def starts_at_rest(self) -> bool:
+        return not self.water.velocity and not self.water.velocity_of_place
+
     def start(self) -> PlaceExpression | None:
-        """Hydrostatic pressure of water at rest on the floor of its box, all of it with one surface."""
+        """Hydrostatic pressure of water at rest on the floor of its box, or between walls of any shape, all of it with one surface."""
+        up = self.dim - 1
+        level = self.level if self.level is not None else self._level_in_box()
+        if level is None or not self.mirrors or self.gravity == 0 or not self.starts_at_rest:
+            return None
+        return PlaceExpression(f"{number_text(self.density * self.gravity)} * ({number_text(level)} - {'xyz'[up]})", self.water.where)
+
+    def _level_in_box(self) -> float | None:
+        """Of the blocks, where they all have it and the lowest is on the floor [L]."""
         up, dx = self.dim - 1, self.spacing
-        if not self.mirrors or self.gravity == 0 or not self.box or not self.water.lattices or self.water.velocity or self.water.velocity_of_place:
+        if not self.box or not self.water.lattices:
             return None
         tops = [min(one.low[up] + dx * one.n[up], float(one.solids[0].shape.high[up]) if one.solids else math.inf) for one in self.water.lattices]
         if max(tops) - min(tops) > 1e-6 * dx or min(one.low[up] for one in self.water.lattices) > self.box[0][up] + dx / 2:
             return None
-        return PlaceExpression(f"{number_text(self.density * self.gravity)} * ({number_text(max(tops))} - {'xyz'[up]})", self.water.where)
+        return max(tops)
 
     def plate(self, axis: int, at: float, mesh: float) -> Plate:
         """One side of the box, across `axis`."""

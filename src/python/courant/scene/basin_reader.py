@@ -17,7 +17,8 @@ from .placeholders import PlaceholderFault, substitute
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
-from .structure_checks import check_structures
+from .still_water import has_oblique_walls, is_dry_behind, stays_still, still_water
+from .structure_checks import check_bodies, check_structures
 from .structure_reader import read_structures
 from .water_checks import check_overlaps, check_piston, positions
 from .wave_reader import Piston, check_reach, read_waves
@@ -32,6 +33,7 @@ _MOTION = keys_of_map("motion", "x text, y text, z text, waves @waves")
 _OF_WALL = keys_of_map("a wall, besides its shape", "motion @motion")
 _OF_BODY = keys_of_map("a body, besides its shape", "density number, mass number, velocity list, hold any")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
+_FEW = 1000  # cells whose particles are counted
 MOST_MIRRORS = 12  # lines of a shape in the plane
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
@@ -75,10 +77,14 @@ class BasinReader(ShapeReader):
             check_inlets(self, basin)
         if self.diagnostics.errors == before:
             self.fill(basin)
+            self.keep_out(basin)
+            if self.diagnostics.errors == before:
+                self.examine_rest(root, basin)
             self.check_solids(basin)
             check_structures(basin, self.diagnostics)
-            self.check_water(basin)
+            self.check_water(basin, self.get(water, "spacing") or water)
             self.check_bodies_of_the_plane(basin, joined_names(self, root))
+            check_bodies(basin, joined_names(self, root), self.diagnostics)
         self.complete = self.diagnostics.errors == before
         if not self.complete:
             return
@@ -137,7 +143,7 @@ class BasinReader(ShapeReader):
         low, low_dim = self.vector(node, "low")
         high, high_dim = self.vector(node, "high")
         basin.box = (low, high)
-        if low_dim != basin.dim or high_dim != basin.dim:
+        if basin.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
             self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
         opened = self.get(node, "open")
         if opened is not None and not is_list(opened):
@@ -209,8 +215,11 @@ class BasinReader(ShapeReader):
                     self.read_body(entry, solid)
                 basin.solids.append(solid)
 
-    def check_water(self, basin: Basin) -> None:
+    def check_water(self, basin: Basin, spacing: Node) -> None:
         check_overlaps(basin.water.lattices, self.variables, self.diagnostics)
+        if basin.water.lattices and not basin.inlets and sum(np.prod(one.n, dtype=float) for one in basin.water.lattices) < _FEW \
+                and sum(len(positions(one, self.variables)) for one in basin.water.lattices) == 1:
+            self.error(spacing, f"spacing: with {basin.spacing:g} the water is a single particle, which has no neighbours", "a tenth of the depth of the water or less")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
@@ -308,13 +317,36 @@ class BasinReader(ShapeReader):
             lattice.solids, lattice.location = [Near(shape)], self.at(node)
             self.add_entities(node, float(np.prod(n)))
             basin.water.lattices.append(lattice)
-        # contact acts at half a spacing; before ghosts at 0.2, so that points of the lattice on both sides of a wall are water or ghosts
-        gap = 0.25 if basin.method == "ghosts" else 0.5
-        out = [Near(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if solid.closed or solid.shape.ground]
-        out += [NearSurface(solid.shape, gap * dx * (1 - 1e-6)) for solid in basin.solids if not solid.closed and self._is_closed(solid.shape)]
-        out += [one.keeps_out(basin.dim, dx) for one in basin.structures]
+
+    @staticmethod
+    def keep_out(basin: Basin) -> None:
+        """Water keeps half a spacing free beside solids and thin walls, where contact acts; before ghosts less, so that points of the lattice on both
+        sides of a wall are water or ghosts."""
+        inside, beside = (0.25, 0.2) if basin.method == "ghosts" else (0.5, 0.5)  # along an axis, and across a wall
+        dx = basin.spacing * (1 - 1e-6)
+        out = [Near(one.shape, inside * dx) if one.closed or one.shape.ground else NearSurface(one.shape, beside * dx) for one in basin.solids]
+        out += [one.keeps_out(basin.dim, basin.spacing) for one in basin.structures]
         for lattice in basin.water.lattices:
             lattice.without = out
+
+    def examine_rest(self, root: Node, basin: Basin) -> None:
+        """Of water at rest between walls: its pressure follows from its level, and in the plane, where walls are oblique and nothing
+        will move it, they have ghosts."""
+        node = self.get(root, "wall_method")
+        oblique = basin.dim == 2 and (node is None or self.text(node) == "auto") and has_oblique_walls(basin) and stays_still(basin, self._cards(root))
+        unknown = basin.mirrors and basin.start() is None
+        if not (basin.box or basin.solids) or not (oblique or unknown) or (water := still_water(basin, self.variables)) is None:
+            return
+        if unknown:
+            basin.level = water.level
+        if oblique and is_dry_behind(basin, water.points):
+            basin.method, basin.still = "ghosts", True
+            self.keep_out(basin)
+
+    def _cards(self, root: Node) -> list[str]:
+        """Deck text beside that of the scene, and of its bases."""
+        nodes = [self.get(one, "keywords") for one in (root, *(base.node for base in self.bases))]
+        return [str(one.value) for node in nodes if node is not None for one in (node.value if is_list(node) else [node]) if is_scalar(one)]
 
     @staticmethod
     def _origin(basin: Basin) -> np.ndarray:

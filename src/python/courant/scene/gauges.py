@@ -10,6 +10,7 @@ import numpy as np
 from ..key_tables import keys as keys_of_map
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
+from .part_names import described, named_part
 
 if TYPE_CHECKING:
     from .model import Model
@@ -38,10 +39,10 @@ def read_gauges(reader: SceneReader, root: Node, model: Model) -> None:
     names: set[str] = set()
     for number, entry in enumerate(node.value, 1):
         if reader.is_map(entry, "- {name: p1, point: [0.1, 0.2]}", "a gauge"):
-            _read_gauge(reader, entry, number, usual, model, names)
+            _read_gauge(reader, root, entry, number, usual, model, names)
 
 
-def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, model: Model, names: set[str]) -> None:
+def _read_gauge(reader: SceneReader, root: Node, node: Node, number: int, usual: float, model: Model, names: set[str]) -> None:
     reader.check_keys(node, "a gauge", _KEYS)
     before = reader.diagnostics.errors
     given = [kind for kind in _KINDS if reader.get(node, kind) is not None]
@@ -56,7 +57,7 @@ def _read_gauge(reader: SceneReader, node: Node, number: int, usual: float, mode
     for key, only in (("with", "point"), ("about", "force")):
         if (entry := reader.get(node, key)) is not None and kind != only:
             reader.error(entry, f"'{key}' goes with '{only}'")
-    cards = _cards(reader, node, kind, model)
+    cards = _cards(reader, root, node, kind, model)
     if reader.diagnostics.errors == before:
         front, *more = cards
         model.keywords.append(f"*COURANT_GAUGE_{kind.upper()}_TITLE\n{name}\n{number},{shortest(interval)}{front}\n" + "".join(f"{one}\n" for one in more))
@@ -79,16 +80,16 @@ def _name(reader: SceneReader, node: Node, names: set[str]) -> str:
     return name
 
 
-def _cards(reader: SceneReader, node: Node, kind: str, model: Model) -> list[str]:
+def _cards(reader: SceneReader, root: Node, node: Node, kind: str, model: Model) -> list[str]:
     """What follows the interval on the first card, and the cards behind it."""
     value = reader.get(node, kind)
     assert value is not None
     if kind == "force":
         about = reader.vector(node, "about")[0] if reader.get(node, "about") is not None else (0.0, 0.0, 0.0)
-        return [f",{_part(reader, value, model, kind)},3,{_numbers(about)}"]
+        return [f",{_part(reader, root, value, model, kind)},3,{_numbers(about)}"]
     if kind == "point":
         body = reader.get(node, "with")
-        return [f",{_numbers(reader.vector(node, kind)[0])},{_part(reader, body, model, 'with') if body is not None else 0}"]
+        return [f",{_numbers(reader.vector(node, kind)[0])},{_part(reader, root, body, model, 'with') if body is not None else 0}"]
     points = _points(reader, value, kind)
     return [""] if not points else ["", ",".join(_numbers(one) for one in points[:2]), *(_numbers(one) for one in points[2:])]
 
@@ -122,23 +123,27 @@ def _size(points: list[tuple[float, float, float]]) -> float:
     return area if area > 1e-6 * scale else 0.0
 
 
-def _part(reader: SceneReader, node: Node, model: Model, key: str) -> int:
+def _part(reader: SceneReader, root: Node, node: Node, model: Model, key: str) -> int:
     """A part by its number, or by the title that the scene gave it; it has shells, as particles neither are faces nor move a point."""
     if not is_scalar(node):
         reader.error(node, "expected the number or the title of a part")
         return 0
     text = reader.text(node)
-    titles = {part.title: part.id for part in model.parts}
-    number = titles.get(text, int(text) if text.isdigit() else 0)
+    number = named_part(reader, node, key, {part.id: part.title for part in model.parts})
+    if number is None:
+        return 0
     found = next((part for part in model.parts if part.id == number), None)
-    if found is None and not reader.complete:
-        return 0  # it may be one that could not be read
+    if found is None and not reader.complete:  # it may be one that could not be read
+        titles = described(reader, root)
+        if titles is not None and text not in titles and not text.isdigit():
+            reader.error(node, f"{key}: the scene has no part '{text}'", f"{did_you_mean(text, titles)}its parts: {', '.join(titles)}")
+        return 0
     if found is None:
         # keywords may bring parts of their own, which only the program knows
-        if number and any("*PART" in (upper := block.upper()) or "*INCLUDE" in upper for block in model.keywords):
-            return number
+        if text.isdigit() and any("*PART" in (upper := block.upper()) or "*INCLUDE" in upper for block in model.keywords):
+            return int(text)
         reader.error(node, f"{key}: the scene has no part '{text}'",
-                     f"{did_you_mean(text, tuple(titles))}its parts: {', '.join(f'{part.title} ({part.id})' for part in model.parts)}")
+                     f"{did_you_mean(text, [part.title for part in model.parts])}its parts: {', '.join(f'{part.title} ({part.id})' for part in model.parts)}")
     elif not (found.plates or found.solids):
         reader.error(node, f"{key}: part '{text}' has particles alone", "name a wall or a body: a part with faces")
     return number

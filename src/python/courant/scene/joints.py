@@ -9,6 +9,7 @@ from ..key_tables import keys as keys_of_map
 from ..words import did_you_mean
 from ..yaml_map import Node, is_list
 from .numbers import number_text
+from .part_names import described, named_part
 
 if TYPE_CHECKING:
     from .basin import Basin
@@ -52,10 +53,10 @@ def read_joints(reader: SceneReader, root: Node, model: Model, basin: Basin | No
         return  # without water, which is an error of its own
     for number, entry in enumerate(node.value):
         if reader.is_map(entry, _EXAMPLE, "a joint"):
-            _read_one(reader, entry, model, basin, number)
+            _read_one(reader, root, entry, model, basin, number)
 
 
-def _read_one(reader: SceneReader, node: Node, model: Model, basin: Basin, number: int) -> None:
+def _read_one(reader: SceneReader, root: Node, node: Node, model: Model, basin: Basin, number: int) -> None:
     reader.check_keys(node, "a joint", _KEYS)
     before = reader.diagnostics.errors
     entry = reader.get(node, "kind")
@@ -67,12 +68,12 @@ def _read_one(reader: SceneReader, node: Node, model: Model, basin: Basin, numbe
     if dim and dim != basin.dim:
         reader.error(reader.get(node, "at") or node, f"at: expected {basin.dim} components")
     axis = _axis(reader, node, kind, basin.dim) if kind in _KINDS else np.zeros(3)
-    parts = _between(reader, node, basin) if reader.complete else (0, 0)  # else a body that could not be read would be missing
+    parts = _between(reader, node, basin) if reader.complete else _described(reader, root, node)
     springs = [_positive(reader, node, key, kind) for key in ("stiffness", "damping")]
     if reader.diagnostics.errors > before or not reader.complete:
         return
     model.keywords.append(_cards(kind, number, parts, np.array(at), axis, basin) + _spring_cards(number, parts, axis, springs))
-    names = {part: name for name, part in basin.rigid_parts().items()}
+    names = basin.rigid_parts()
     model.choices.append((f"'{names[parts[0]]}' is joined to '{names[parts[1]]}' by a {kind} joint", "given", f"*CONSTRAINED_JOINT_{_KINDS[kind][0]}"))
 
 
@@ -106,20 +107,29 @@ def _axis(reader: SceneReader, node: Node, kind: str, dim: int) -> np.ndarray:
     return axis / length
 
 
+def _described(reader: SceneReader, root: Node, node: Node) -> tuple[int, int]:
+    """Reports names that the scene has not, where some of its bodies could not be read."""
+    titles, entry = described(reader, root), reader.get(node, "between")
+    for one in entry.value if titles is not None and entry is not None and is_list(entry) else ():
+        if (text := reader.text(one)) not in titles and not text.isdigit():  # type: ignore[operator]
+            reader.error(one, f"between: there is no body or wall '{text}'", f"there are {', '.join(titles[1:])}; 'title' names a shape")  # type: ignore[index]
+    return 0, 0
+
+
 def _between(reader: SceneReader, node: Node, basin: Basin) -> tuple[int, int]:
     entry = reader.get(node, "between")
-    names = basin.rigid_parts()
+    titles = basin.rigid_parts()
+    names = titles.values()
     free = {solid.part for solid in basin.solids if solid.free}
     if entry is None or not is_list(entry) or len(entry.value) != 2:
         reader.error(entry or node, "between: expected two of the bodies and walls", f"there are {', '.join(names) or 'none'}; {_EXAMPLE}")
         return 0, 0
     found = []
     for one in entry.value:
-        name = reader.text(one)
-        number = names.get(name, int(name) if name.isdigit() and int(name) in names.values() else 0)
-        if not number:
-            reader.error(one, f"between: there is no body or wall '{name}'", f"there are {', '.join(names) or 'none'}; 'title' names a shape")
-        found.append(number)
+        number = named_part(reader, one, "between", titles)
+        if number == 0:
+            reader.error(one, f"between: there is no body or wall '{reader.text(one)}'", f"there are {', '.join(names) or 'none'}; 'title' names a shape")
+        found.append(number or 0)
     if all(found) and not free & set(found):
         reader.error(entry, "between: one of the two must be a body, which moves", "both are walls")
     if found[0] == found[1] and found[0]:

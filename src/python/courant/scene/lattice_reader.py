@@ -36,13 +36,12 @@ class LatticeReader(ParameterReader):
         none = PlaceExpression("0", self.at(entry))
         part.velocity_of_place = [(given[k] if k < len(given) else none) or none for k in range(3)]
 
-    def read_lattice(self, node: Node, spacing: float = 0.0, others: tuple[str, ...] = ()) -> Lattice:
-        """`spacing`: of blocks, which have none of their own; `others`: keys that the entry may have besides."""
-        block = spacing > 0
+    def read_lattice(self, node: Node, spacing: float | None = None, others: tuple[str, ...] = ()) -> Lattice:
+        """`spacing`: of blocks, which have none of their own, 0 where it is wrong; `others`: keys that the entry may have besides."""
+        block, before = spacing is not None, self.diagnostics.errors
         self.check_keys(node, "a block" if block else "a lattice", (*(BLOCK if block else LATTICE), *others))
-        before = self.diagnostics.errors
         (low, dim), (high, high_dim) = self.vector(node, "low"), self.vector(node, "high")
-        lattice = Lattice(dim, low, spacing if block else self.length(node, "spacing"), (0, 0, 1), location=self.at(node))
+        lattice = Lattice(dim, low, spacing if spacing is not None else self.length(node, "spacing"), (0, 0, 1), location=self.at(node))
         if (where := self.get(node, "where")) is not None:
             lattice.where = self.of_place(where, "where")
         if (jitter := self.get(node, "jitter")) is not None:
@@ -54,7 +53,7 @@ class LatticeReader(ParameterReader):
         self.dim = self.dim or dim
         if dim != self.dim and dim:
             self.error(node, f"a lattice of {dim} dimensions beside one of {self.dim}", "give low and high as many components in all lattices of a scene")
-        if self.diagnostics.errors > before:
+        if self.diagnostics.errors > before or not lattice.spacing > 0:
             return lattice
         return self._with_cells(node, lattice, [high[k] - low[k] for k in range(dim)])
 

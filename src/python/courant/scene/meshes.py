@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from .shapes import Shape
+
 SOLIDS, SHELLS = "solids", "shells"
 # corners of the sides of hexahedra, pyramids and wedges with repeated nodes, and of tetrahedra, seen from outside against the clock
 _SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -69,10 +71,18 @@ class Mesh:
             distinct = np.unique(row)
             row[:] = np.append(distinct, [-1] * (4 - len(distinct)))
         _, first, count = np.unique(sorted_nodes, axis=0, return_index=True, return_counts=True)
-        faces = nodes[first[count == 1]]
-        triangles = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
-        kept = (triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 2] != triangles[:, 0])
-        return triangles[kept]
+        return _triangles(nodes[first[count == 1]])
+
+    def surface(self) -> Shape:
+        """Of solids their outer faces; of shells their middle."""
+        return Shape(self.points, self.outer_faces() if self.kind == SOLIDS else _triangles(self.cells), 3)
+
+
+def _triangles(sides: np.ndarray) -> np.ndarray:
+    """Of quadrangles (m, 4), which may have repeated nodes, (k, 3)."""
+    triangles = np.concatenate([sides[:, [0, 1, 2]], sides[:, [0, 2, 3]]])
+    kept = (triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 2] != triangles[:, 0])
+    return triangles[kept]
 
 
 def divided(length: float, size: float) -> int:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..diagnostics import Diagnostics, Location
+from .distances import distances
 
 LARGEST_ID = 99999999  # ids of nodes and elements have eight columns
 MOST_ENTITIES = 5e7  # a typing error in a spacing should not fill the memory
@@ -59,14 +60,10 @@ class Near:
 
 @dataclass
 class NearSurface(Near):
-    """What is nearer than the margin to the surface of a closed shape, on both sides."""
+    """What is nearer than the margin to a surface, on both sides."""
 
     def contains(self, x: np.ndarray) -> np.ndarray:
-        inside = self.shape.contains(x)
-        out = np.zeros(len(x), dtype=bool)
-        for shift in self.margin * np.concatenate([np.eye(3), -np.eye(3)])[[0, 1, 3, 4, 2, 5][: 2 * self.shape.dim]]:
-            out |= self.shape.contains(x + shift) != inside
-        return out
+        return distances(self.shape, x, self.margin) < self.margin
 
 
 @dataclass

@@ -9,7 +9,7 @@ import yaml
 
 from ..diagnostics import Diagnostics, Location
 from ..expressions import ExpressionFault, evaluate
-from ..words import did_you_mean, shortest
+from ..words import did_you_mean, nearest_word, shortest
 from ..yaml_map import Node, as_flag, is_list, is_map, is_scalar
 from .model import LARGEST_ID, PlaceExpression, Variables, Vector
 from .placeholders import PlaceholderFault, substitute
@@ -38,6 +38,7 @@ class NodeReader:
     def __init__(self, path: str, diagnostics: Diagnostics) -> None:
         self.path, self.diagnostics = path, diagnostics
         self.variables: Variables = {"pi": math.pi}
+        self._meant: set[tuple[int, str]] = set()  # nodes, and the keys that unknown ones of theirs resemble
 
     def at(self, node: Node, extra_lines: int = 0) -> Location:
         mark = node.start_mark
@@ -68,10 +69,16 @@ class NodeReader:
                 self.error(key, f"{what}: a key must be a word")
                 continue
             if key.value not in known:
+                self._meant.add((id(node), nearest_word(key.value, known)))
                 self.error(key, f"{what}: unknown key '{key.value}'", f"{did_you_mean(key.value, known)}known keys: {', '.join(known)}")
             if key.value in seen:
                 self.error(key, f"{what}: '{key.value}' stands twice")
             seen.add(key.value)
+
+    def missing(self, node: Node, key: str, hint: str = "") -> None:
+        """Reports a key that is not there, unless it is misspelt, which is reported already."""
+        if (id(node), key) not in self._meant:
+            self.error(node, f"'{key}' is missing", hint)
 
     def text(self, node: Node) -> str:
         if not is_scalar(node):
@@ -104,7 +111,7 @@ class NodeReader:
         entry = self.get(node, key)
         if entry is None:
             if required:
-                self.error(node, f"'{key}' is missing")
+                self.missing(node, key)
             return 0
         value = self.number(entry, key)
         if value is None:
@@ -119,7 +126,7 @@ class NodeReader:
         """A point or vector, and the number of its components, 0 where it is none."""
         entry = self.get(node, key)
         if entry is None:
-            self.error(node, f"'{key}' is missing")
+            self.missing(node, key)
         elif not is_list(entry) or not 2 <= len(entry.value) <= 3:
             self.error(entry, f"{key}: expected [x, y] or [x, y, z]")
         else:
@@ -143,7 +150,7 @@ class NodeReader:
         """A number > 0 under that key, which messages call `what`; 0, with a message, where there is none."""
         entry = self.get(node, key)
         if entry is None:
-            self.error(node, f"'{key}' is missing")
+            self.missing(node, key)
             return 0.0
         return self.length_of(entry, key, what)
 

@@ -28,6 +28,7 @@ from .model import Model
 from .node_reader import Mark
 from .reader import SceneReader
 from .shape_reader import DataNode
+from .surfaces import polygon_of
 
 Number = Union[float, str]  # also an expression of the scene's parameters: "height / n"
 Point = Sequence[Number]  # two components in the plane, three in space
@@ -246,12 +247,13 @@ class Scene:
     def to_yaml(self, file: str | PathLike[str] | None = None) -> str:
         """The scene in YAML, also written to a file where one is named. Raises CourantError where it holds meshes that are in no file."""
         diagnostics = Diagnostics()
-        for node in _all(self._root):
+        root = _with_lines(self._root)
+        for node in _all(root):
             if isinstance(node, DataNode):
                 diagnostics.error(SceneReader(self._path, {}, diagnostics).at(node), f"a mesh in memory, {node.value}, has no form in YAML",
                                   "write it to a file, and name that")
         self._raise(diagnostics)
-        text: str = yaml.serialize(self._root, Dumper=yaml.SafeDumper, width=150, allow_unicode=True)
+        text: str = yaml.serialize(root, Dumper=yaml.SafeDumper, width=150, allow_unicode=True)
         if file is not None:
             try:
                 write_file(Path(file), text, named=True)
@@ -360,6 +362,23 @@ class _Held:
 
     def __init__(self, thing: Any) -> None:
         self.thing = thing
+
+
+def _with_lines(node: Node) -> Node:
+    """The same description with polygons of points as closed lines, which YAML has a form for."""
+    if is_list(node):
+        return yaml.SequenceNode(node.tag, [_with_lines(one) for one in node.value], node.start_mark, node.end_mark, flow_style=node.flow_style)
+    if not is_map(node):
+        return node
+    entries = []
+    for key, value in node.value:
+        xy = polygon_of(value.data) if isinstance(value, DataNode) and key.value == "mesh" else None
+        if xy is None:
+            entries.append((key, _with_lines(value)))
+        else:
+            closed = xy if len(xy) < 3 or np.array_equal(xy[0], xy[-1]) else np.vstack([xy, xy[:1]])
+            entries.append((_node("line", key.start_mark), _node(closed, value.start_mark)))
+    return yaml.MappingNode(node.tag, entries, node.start_mark, node.end_mark, flow_style=node.flow_style)
 
 
 def _all(node: Node) -> list[Node]:

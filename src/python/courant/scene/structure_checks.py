@@ -1,4 +1,4 @@
-"""What deformable parts of a scene must not be: in a wall, in a body or in each other."""
+"""What deformable parts of a scene must not be: in a wall, in a body or in each other; and bodies that overlap."""
 from __future__ import annotations
 
 import numpy as np
@@ -33,6 +33,34 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
             if not len(found) and id(one) in solid:
                 found = _inside(solid[id(one)], free_of_other, depth)
             _report(one, found, f"'{other.title}'", dim, diagnostics)
+
+
+def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> None:
+    """Refuses bodies that overlap, unless both have joints: they may be parts of one thing."""
+    titles = basin.rigid_parts()
+    bodies = [solid for solid in basin.solids if solid.free]
+    linked = [bool({solid.shape.name, str(solid.part)} & joined) for solid in bodies]
+    for k, one in enumerate(bodies):
+        for other, has_joint in zip(bodies[:k], linked):
+            if (has_joint and linked[k]) or (at := _common_point(one.shape, other.shape, _DEPTH * basin.spacing)) is None:
+                continue
+            names = [f"'{titles[body.part]}'" + (f" ({body.part})" if one.shape.name == other.shape.name else "") for body in (other, one)]
+            diagnostics.error(one.where, f"{' and '.join(names)} overlap, for example at ({', '.join(f'{v:.4g}' for v in at[: basin.dim])})",
+                              "move one of them, or join them by a joint" + (": bodies of the plane do not touch each other" if basin.dim == 2 else ""))
+
+
+def _common_point(one: Shape, other: Shape, depth: float) -> np.ndarray | None:
+    """A point inside of both shapes, of a lattice over what their boxes have in common; None where that is thinner than `depth` [L]."""
+    dim = one.dim
+    low, high = np.maximum(one.low, other.low)[:dim], np.minimum(one.high, other.high)[:dim]
+    if not np.all(high - low > depth):
+        return None
+    n = 64 if dim == 2 else 16
+    x = np.zeros((n**dim, 3))
+    x[:, :dim] = low + (high - low) * (np.stack(np.meshgrid(*[np.arange(n)] * dim, indexing="ij"), axis=-1).reshape(-1, dim) + 0.5) / n
+    x = x[one.contains(x)]
+    x = x[other.contains(x)]
+    return x[len(x) // 2] if len(x) else None
 
 
 def _inside(shape: Shape, x: np.ndarray, depth: float) -> np.ndarray:

@@ -13,6 +13,7 @@ from ..yaml_map import Node, is_list, is_map, is_scalar
 from . import meshes
 from .materials import read_material
 from .meshes import SOLIDS, Mesh
+from .part_names import named_part
 from .shape_reader import BOX, CYLINDER, SPHERE, DataNode
 from .structures import FIRST_STRUCTURE, Structure
 from .surfaces import ShapeFault, read_shape, shape_of, sound
@@ -243,11 +244,11 @@ def _fix(reader: SceneReader, node: Node, made: Structure, basin: Basin) -> None
         chosen |= here
     made.fixed = np.flatnonzero(chosen)
     if to is not None:
-        name = reader.text(to)
-        parts = {**basin.rigid_parts(), **{str(number): number for number in basin.rigid_parts().values()}}
-        if name not in parts:
-            reader.error(to, f"to: there is no wall or body '{name}'", f"there are {', '.join(basin.rigid_parts()) or 'none'}")
-        made.to = parts.get(name, 0)
+        titles = basin.rigid_parts()
+        number = named_part(reader, to, "to", titles)
+        if number == 0:
+            reader.error(to, f"to: there is no wall or body '{reader.text(to)}'", f"there are {', '.join(titles.values()) or 'none'}")
+        made.to = number or 0
 
 
 def _track(reader: SceneReader, node: Node, made: Structure) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from ..diagnostics import Location
 from .materials import Material, material_cards, material_text
 from .meshes import SOLIDS, Mesh
-from .model import Near, Part, Vector
+from .model import Near, NearSurface, Part, Vector
 from .placeholders import substitute
 from .shapes import Shape, polyline
 from .solids import part_set
@@ -40,50 +40,15 @@ class Structure:
     def title(self) -> str:
         return self.mesh.name
 
-    def keeps_out(self, dim: int, spacing: float) -> Near | NearShells:
+    def keeps_out(self, dim: int, spacing: float) -> Near:
         """What has no water: the solid with half a spacing beside it, or the layer of a shell."""
         if self.mesh.kind != SOLIDS:
-            return NearShells(self.mesh, (self.thickness + spacing) / 2 * (1 - 1e-6))
+            return NearSurface(self.mesh.surface(), (self.thickness + spacing) / 2 * (1 - 1e-6))
         return Near(self.outline(dim), 0.5 * spacing * (1 - 1e-6))
 
     def outline(self, dim: int) -> Shape:
         """The surface of solids, in the plane its section."""
-        return _section(self.mesh) if dim == 2 else Shape(self.mesh.points, self.mesh.outer_faces(), 3)
-
-
-@dataclass
-class NearShells:
-    """What is nearer to shells than a margin [L]."""
-
-    mesh: Mesh
-    margin: float
-
-    def contains(self, x: np.ndarray) -> np.ndarray:
-        """Which points (n, 3), shape (n,)."""
-        out = np.zeros(len(x), dtype=bool)
-        near = np.flatnonzero(np.all((x > self.mesh.low - self.margin) & (x < self.mesh.high + self.margin), axis=1))
-        for corners in self.mesh.points[self.mesh.cells]:
-            some = near[~out[near]]
-            some = some[np.all((x[some] > corners.min(axis=0) - self.margin) & (x[some] < corners.max(axis=0) + self.margin), axis=1)]
-            if len(some):
-                distance = np.minimum(*(_distances(x[some], corners[[0, k, k + 1]]) for k in (1, 2)))
-                out[some] = distance < self.margin
-        return out
-
-
-def _distances(x: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Of points (n, 3) from a triangle, which may be a line, (n,)."""
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    size = float(np.linalg.norm(normal))
-    out = np.full(len(x), np.inf)
-    inside = np.full(len(x), size > 0)
-    for a, b in zip(corners, np.roll(corners, -1, axis=0)):
-        along = b - a
-        length = float(along @ along)
-        s = np.clip((x - a) @ along / length, 0, 1) if length > 0 else np.zeros(len(x))
-        out = np.minimum(out, np.linalg.norm(x - a - s[:, None] * along, axis=1))
-        inside &= np.einsum("ij,j->i", np.cross(along, x - a), normal) >= 0
-    return np.where(inside, np.abs((x - corners[0]) @ normal) / size, out) if size > 0 else out
+        return _section(self.mesh) if dim == 2 else self.mesh.surface()
 
 
 def _section(mesh: Mesh) -> Shape:

@@ -96,13 +96,18 @@ def shape_of(thing: Any) -> Shape:
     if isinstance(thing, tuple) and len(thing) == 2 and np.ndim(thing[0]) == 2 and np.ndim(thing[1]) == 2 and np.shape(thing[1])[1] == 3 \
             and np.shape(thing[0])[1] == 3:
         return Shape(np.asarray(thing[0], dtype=float), np.asarray(thing[1], dtype=int), 3)
+    if (xy := polygon_of(thing)) is not None:
+        return replace(polyline(xy, closed=len(xy) > 2), name="line")
+    raise ShapeFault(f"a {type(thing).__name__} is no surface", "give a file, a mesh of PyVista, VTK, meshio or trimesh, (points, triangles), or points (n, 2)")
+
+
+def polygon_of(thing: Any) -> np.ndarray | None:
+    """Points (n, 2) of a polyline; None for anything else."""
     try:
         xy = np.asarray(thing, dtype=float)
     except (TypeError, ValueError):
-        xy = np.zeros(0)
-    if xy.ndim == 2 and xy.shape[1] == 2 and len(xy) > 1:
-        return polyline(xy, closed=len(xy) > 2)
-    raise ShapeFault(f"a {type(thing).__name__} is no surface", "give a file, a mesh of PyVista, VTK, meshio or trimesh, (points, triangles), or points (n, 2)")
+        return None
+    return xy if xy.ndim == 2 and xy.shape[1] == 2 and len(xy) > 1 else None
 
 
 def _of_meshio(mesh: Any) -> Shape:
