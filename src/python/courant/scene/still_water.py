@@ -20,7 +20,8 @@ _BESIDE = 0.8  # spacings from a wall within which the lattice may end
 _ALIGNED = 1e-3  # of a spacing: lattices that differ by less are one
 _REACH = 4.0  # spacings of the kernel, h of two spacings
 _MOST_FACES = 2000  # of walls that are examined
-_HARMLESS = re.compile(r"^\*(?!CONTROL_TERMINATION|CONTROL_TIMESTEP|CONTROL_OUTPUT|DATABASE|COURANT_GAUGE|TITLE|KEYWORD|END|COMMENT)", re.MULTILINE | re.IGNORECASE)
+# Keywords other than those of control and output
+_MAY_MOVE = re.compile(r"^\*(?!CONTROL_TERMINATION|CONTROL_TIMESTEP|CONTROL_OUTPUT|DATABASE|COURANT_GAUGE|TITLE|KEYWORD|END|COMMENT)", re.MULTILINE | re.IGNORECASE)
 
 
 @dataclass
@@ -94,7 +95,7 @@ def _sides(basin: Basin) -> list[Shape]:
 def stays_still(basin: Basin, keywords: list[str]) -> bool:
     """Whether nothing of the scene moves the water. Cards beside those of the scene may."""
     driven = basin.box_motion or any(solid.free or solid.motion for solid in basin.solids)
-    return not driven and basin.gravity > 0 and not basin.outlets and not any(_HARMLESS.search(text) for text in keywords)
+    return not driven and basin.gravity > 0 and not basin.outlets and not any(_MAY_MOVE.search(text) for text in keywords)
 
 
 def has_oblique_walls(basin: Basin) -> bool:
