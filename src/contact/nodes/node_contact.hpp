@@ -24,7 +24,7 @@ struct ContactNode {
   Index node = 0;             ///< index into World::nodes
   unsigned pass = 0;          ///< 0: of SURFA, on faces of SURFB; 1: the reverse
   Real r = 0;                 ///< half its contact thickness [L]
-  Real most_lift = 0;         ///< of its faces, either way [L]
+  Real most_lift = 0;         ///< of its faces, in either direction [L]
   Index first = 0, last = 0;  ///< the faces that it belongs to: of ContactSides::own
 };
 

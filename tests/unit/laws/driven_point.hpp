@@ -60,7 +60,7 @@ struct DrivenPoint {
       }
       Eigen::VectorXd by = slope.fullPivLu().solve(now);
       const std::array<Real, 6> from = step;
-      for (int halved = 0; halved < 8; ++halved, by *= 0.5) {  // less where flow begins or ends on its way
+      for (int halved = 0; halved < 8; ++halved, by *= 0.5) {  // less where flow begins or ends within it
         for (std::size_t k = 0; k < free.size(); ++k)
           step[free[k]] = from[free[k]] - by[static_cast<long>(k)];
         if (left(step).norm() < now.norm()) break;
