@@ -20,8 +20,11 @@ void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) 
 }
 
 void watch_impulses(const Model& model, World& world, const Contacts& contacts) {
-  if (model.output.histories.contains("rcforc"))
-    world.passes.add(std::make_shared<InterfaceImpulses>(contacts));
+  if (contacts.empty() && world.passes.all<InterfaceReporter>().empty() &&
+      world.passes.all<WallForceReporter>().empty())
+    return;
+  // also without rcforc, which a restart may add
+  world.passes.add(std::make_shared<InterfaceImpulses>(contacts, model.output.histories.contains("rcforc")));
 }
 
 const RegisterBuilder watch_all(BuildPhase::checks, "impulses of contacts", watch_impulses);
@@ -37,12 +40,14 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Contacts&
 }
 
 void InterfaceImpulses::record(World& world, const Clock& clock, EnergyLedger&) {
+  if (!asked_) return;
   const std::vector<InterfaceForce> now = interface_forces(world, contacts_);
   impulses_.resize(now.size(), Vec::Zero());
   for (std::size_t k = 0; k < now.size(); ++k) impulses_[k] += clock.dt_mean() * now[k].on_surfa;
 }
 
 std::vector<Vec> InterfaceImpulses::so_far(std::size_t count) const {
+  if (!asked_) return {};
   std::vector<Vec> out = impulses_;
   out.resize(count, Vec::Zero());
   return out;

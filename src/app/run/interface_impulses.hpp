@@ -19,16 +19,18 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Contacts&
 /// impulses.
 class InterfaceImpulses : public EnergyTerm, public Restartable {
  public:
-  explicit InterfaceImpulses(Contacts contacts) : contacts_(std::move(contacts)) {}
+  InterfaceImpulses(Contacts contacts, bool asked) : contacts_(std::move(contacts)), asked_(asked) {}
   std::string name() const override { return "impulses of contacts"; }
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
   void keep(Archive& archive) override { archive("impulses", impulses_); }
-  /// So far, of so many forces as there are.
+  void begin() { impulses_.clear(); }
+  /// So far, of so many forces as there are; empty without rcforc.
   std::vector<Vec> so_far(std::size_t count) const;
 
  private:
   Contacts contacts_;
+  bool asked_;
   std::vector<Vec> impulses_;  ///< in the order of `interface_forces` [ML/T]
 };
 

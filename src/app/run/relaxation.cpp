@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/run/interface_impulses.hpp"
 #include "base/run_error.hpp"
 #include "output/file.hpp"
 #include "output/result_names.hpp"
@@ -179,6 +180,7 @@ void Simulation::start_from(Simulation& relaxed) {
   keep(load);
   clock_ = {};
   world_.energy = {};
+  for (auto* impulses : world_.passes.all<InterfaceImpulses>()) impulses->begin();
   for (std::size_t i = 0; i < v.size(); ++i) nodes.v.set(static_cast<Index>(i), v[i]);
   for (std::size_t i = 0; i < w.size(); ++i) turning->set(static_cast<Index>(i), w[i]);
   if (bodies) bodies->start_moving(of_bodies, world_);

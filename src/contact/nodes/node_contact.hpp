@@ -225,7 +225,7 @@ class NodeContact : public Force,
   bool has_faces(const ContactNode& n) const;
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
-  bool jumps(const World& world, const Clock& clock, Index i, const Slot& slot) const;
+  bool jumps(const World& world, const Clock& clock, Index i, const Slot& slot, Index face_before) const;
   bool is_taken(const Slots& slots, Index face) const;
   bool goes_on(const Slots& slots, const Seen& seen) const;
   void give_stiffness(const World& world, Index i, Slot& slot) const;

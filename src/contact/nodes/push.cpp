@@ -187,7 +187,7 @@ void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index
   for (const Seen& seen : b.seen) {
     if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
     const ContactFace& f = face(seen.face);
-    const Real side = f.two_sided && seen.d < 0 ? -1 : 1,
+    const Real side = f.two_sided && seen.d < lift(world, i, f, 1, seen.at.n) ? -1 : 1,
                gap = gap_at(world, i, f, side, side * seen.at.n, side * seen.d);
     if (gap < 0) continue;
     const Vec v = world.nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N);

@@ -13,6 +13,8 @@ namespace {
 /// Who is behind a face and was no further behind it a step ago than this has come through it, of the depth
 /// at which a node counts as through.
 constexpr Real arrival_tolerance = 0.02;
+/// A touch that goes on to another face may be deeper there by this, of a usual face.
+constexpr Real step_in_depth = 1e-3;
 /// What is less deep at the start is rounding, of a usual face.
 constexpr Real start_rounding = 1e-6;
 /// Nodes that start behind the face of a solid by less than this, of that depth, are taken for touching it.
@@ -134,11 +136,12 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   if (eroded_) let_go(world, b, i, x, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
-  for (Slot& slot : slots)
-    if (slot.face >= 0 && jumps(world, clock, i, slot)) {
-      slot.slack = -slot.gap - std::max((*depth_)[i], Real(0));
-      ++b.jumped;
-    }
+  for (int k = 0; k < most_touches; ++k) {
+    Slot& slot = slots[static_cast<std::size_t>(k)];
+    if (slot.face < 0 || !jumps(world, clock, i, slot, load(i, k).face)) continue;
+    slot.slack = -slot.gap - std::max((*depth_)[i], Real(0));
+    ++b.jumped;
+  }
   find_touches(world, clock, b, i, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0) push(world, clock, b, i, slot);
@@ -156,10 +159,12 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
 // Whether a touch that went on to another face, or round an edge, is much deeper there than node and face
 // have moved, as where surfaces fold. What is beyond that gives no force, as of nodes that start behind
 // faces.
-bool NodeContact::jumps(const World& world, const Clock& clock, Index i, const Slot& slot) const {
+bool NodeContact::jumps(const World& world, const Clock& clock, Index i, const Slot& slot,
+                        Index face_before) const {
   const Vec moved =
       (world.nodes.v.vec(node(i).node) - velocity_of_face(world, face(slot.face), slot.at.N)) * clock.dt_old;
-  const Real tolerated = arrival_tolerance * face(slot.face).depth;
+  const Real tolerated =
+      slot.face == face_before ? arrival_tolerance * face(slot.face).depth : step_in_depth * size_;
   return -slot.gap - slot.slack > std::max((*depth_)[i], Real(0)) + 2 * moved.norm() + tolerated;
 }
 
@@ -193,7 +198,8 @@ Real NodeContact::lift(const World& world, Index i, const ContactFace& f, Real s
 // Whether the touch lasts.
 bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots,
                        Slot& slot) const {
-  const ContactFace& f = face(slot.face);
+  const Index touched = slot.face;
+  const ContactFace& f = face(touched);
   const FaceCorners corners = corners_of(f, world.nodes.x);
   const auto seen =
       std::find_if(b.seen.begin(), b.seen.end(), [&](const Seen& one) { return one.face == slot.face; });
@@ -208,7 +214,8 @@ bool NodeContact::hold(const World& world, Block& b, Index i, const Vec& x, cons
   const ContactFace& now = face(slot.face);
   if (slot.beyond > 0 || slot.gap + distance(world, i, now, slot.side, slot.n) >= -now.through) return true;
   b.leaked.push_back(i);
-  const Real depth = std::max(-slot.gap - slot.slack, Real(0));
+  Real depth = std::max(-slot.gap - slot.slack, Real(0));
+  if (slot.face != touched) depth = std::min(depth, (*depth_)[i]);  // it was never deeper on the face before
   b.let_go += 0.5 * slot.k * depth * depth;
   return false;
 }
@@ -324,7 +331,7 @@ bool NodeContact::arrives(const World& world, const Clock& clock, Index i, const
   const Real before = seen.d - seen.at.n.dot(moved);
   slot = Slot();
   slot.face = seen.face, slot.at = seen.at;
-  slot.side = f.two_sided && before < 0 ? -1 : 1;
+  slot.side = f.two_sided && before < lift(world, i, f, 1, seen.at.n) ? -1 : 1;
   // What leaves a shell without thickness was behind it a step ago, and stays on its side.
   for (int k = 0; f.two_sided && !(f.r + node(i).r > 0) && k < most_touches; ++k) {
     const Slot last = load(i, k);

@@ -39,7 +39,8 @@ class DeckReader {
   bool read_deck_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment read_cards(const File& file, std::size_t line, const KeywordLine& keyword);
   Treatment refuse(const std::string& name, const Location& where);
-  Treatment note_request(const File& file, std::size_t line, const std::string& name, const Location& where);
+  Treatment note_request(const File& file, std::size_t line, const KeywordLine& keyword,
+                         const Location& where);
   void close_requests();
   bool refuse_encrypted(const File& file, std::size_t line, const KeywordLine& keyword);
   void check_end(const File& file);

@@ -222,7 +222,7 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   if (match.keyword < 0) {
     for (DataLines data(*file.source, line + 1); !data.done(); data.step())
       parameters_.note_mentions(data.line());
-    return is_output_request(keyword.name) ? note_request(file, line, keyword.name, where)
+    return is_output_request(keyword.name) ? note_request(file, line, keyword, where)
                                            : refuse(keyword.name, where);
   }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
@@ -244,13 +244,15 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   return Treatment::refused;
 }
 
-// An interval beyond the end of the run asks for nothing, nor do the files of parallel runs.
-Treatment DeckReader::note_request(const File& file, std::size_t line, const std::string& name,
+// An interval beyond the end of the run asks for nothing, nor do the files of parallel runs. Field 1 of other
+// requests may be an id.
+Treatment DeckReader::note_request(const File& file, std::size_t line, const KeywordLine& keyword,
                                    const Location& where) {
+  const std::string& name = keyword.name;
   if (is_of_parallel_files(name)) return Treatment::honoured;
   const DataLines data(*file.source, line + 1);
-  if (data.done() || !name.starts_with("DATABASE_")) return refuse(name, where);
-  constexpr int width = 10;
+  if (data.done() || !name.starts_with("DATABASE_BINARY_")) return refuse(name, where);
+  const int width = keyword.format == CardFormat::long_fields ? 20 : 10;
   const std::string_view text = split_equal(data.line(), width, width).front().text;
   Real interval = 0;
   if (Parameters::is_reference(text))

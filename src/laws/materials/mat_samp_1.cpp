@@ -224,7 +224,7 @@ class Samp : public StrengthLaw {
       return f.q - surface(in_tension * f.strain)(f.p);
     };
     const bool flows = block.dt > 0 && excess(0) > 0;
-    const Real x = flows ? root_below(1, excess) : 0;
+    const Real x = !flows ? 0 : excess(1) > 0 ? 1 : root_below(1, excess);
     const Flown f = flown(tr, r, x);
     const Real de = in_tension * f.strain;
     Real p = f.p;

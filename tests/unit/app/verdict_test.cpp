@@ -226,6 +226,7 @@ TEST(Verdict, ClampsErrorsAndRangesSpeakAgainstARun) {
   s = with_error(0);
   s.ranges = {{.part = 1,
                .c0 = 10,
+               .stiffness_field = "C1",
                .seen = true,
                .speed = {2.1, 7, 0.5},
                .density_low = {1, 0, 0},

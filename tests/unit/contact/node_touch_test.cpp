@@ -174,6 +174,23 @@ TEST(NodeContactTouch, CountsThicknessFromLiftedPlanes) {
       }
 }
 
+// A face whose thickness is all above its nodes: what lies flush below it, by rounding on either side, is
+// held there.
+TEST(NodeContactTouch, HoldsWhatIsFlushWithALiftedFace) {
+  for (const Real side : {1, -1})
+    for (const Real off : {-1e-9, 1e-9}) {
+      TouchScene scene;
+      scene.at = Vec(0.5, 0.2, off), scene.v = Vec(0, 0, side);
+      scene.change = [&](ContactSides& sides) {
+        sides.faces[0].two_sided = sides.own[0].two_sided = true;
+        sides.faces[0].r = 0.03, sides.faces[0].lift = side * 0.03;
+      };
+      scene.build();
+      scene.step(0), scene.step(0.01);
+      EXPECT_NEAR(scene.force_on(4)[2], -side * 2.5 * 0.01, 1e-7) << side << off;
+    }
+}
+
 // What its spring holds where it goes through is dissipated, so that the balance closes.
 TEST(NodeContactTouch, LosesWhatItStoresByALeak) {
   TouchScene scene;
