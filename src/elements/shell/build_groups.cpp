@@ -12,6 +12,7 @@
 #include "elements/shell/distortion.hpp"
 #include "elements/shell/facets.hpp"
 #include "elements/shell/shells.hpp"
+#include "elements/shell_faces/section_shell.hpp"
 #include "laws/strength/material_axes.hpp"
 #include "state/shared_fields.hpp"
 #include "surfaces/contact_offset.hpp"
