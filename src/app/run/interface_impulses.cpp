@@ -19,12 +19,30 @@ void add_interface(const InterfaceForce& one, std::vector<InterfaceForce>& all) 
   all.push_back(one);
 }
 
+/// Integrates over every step: samples of histories miss what acts between them. v^{n-1/2} has got these
+/// impulses.
+class SumOfImpulses : public EnergyTerm {
+ public:
+  SumOfImpulses(Contacts contacts, std::shared_ptr<InterfaceImpulses> sum)
+      : contacts_(std::move(contacts)), sum_(std::move(sum)) {}
+  std::string name() const override { return "impulses of contacts, each step"; }
+  void record(World& world, const Clock& clock, EnergyLedger&) override {
+    sum_->add(interface_forces(world, contacts_), clock.dt_mean());
+  }
+  void sample(const World&, const Clock&, EnergyLedger&) const override {}
+
+ private:
+  Contacts contacts_;
+  std::shared_ptr<InterfaceImpulses> sum_;
+};
+
 void watch_impulses(const Model& model, World& world, const Contacts& contacts) {
   if (contacts.empty() && world.passes.all<InterfaceReporter>().empty() &&
       world.passes.all<WallForceReporter>().empty())
     return;
-  // also without rcforc, which a restart may add
-  world.passes.add(std::make_shared<InterfaceImpulses>(contacts, model.output.histories.contains("rcforc")));
+  auto sum = world.passes.add(std::make_shared<InterfaceImpulses>());
+  sum->summed = model.output.histories.contains("rcforc");
+  if (sum->summed) world.passes.add(std::make_shared<SumOfImpulses>(contacts, sum));
 }
 
 const RegisterBuilder watch_all(BuildPhase::checks, "impulses of contacts", watch_impulses);
@@ -39,15 +57,12 @@ std::vector<InterfaceForce> interface_forces(const World& world, const Contacts&
   return out;
 }
 
-void InterfaceImpulses::record(World& world, const Clock& clock, EnergyLedger&) {
-  if (!asked_) return;
-  const std::vector<InterfaceForce> now = interface_forces(world, contacts_);
-  impulses_.resize(now.size(), Vec::Zero());
-  for (std::size_t k = 0; k < now.size(); ++k) impulses_[k] += clock.dt_mean() * now[k].on_surfa;
+void InterfaceImpulses::add(const std::vector<InterfaceForce>& forces, Real dt) {
+  impulses_.resize(forces.size(), Vec::Zero());
+  for (std::size_t k = 0; k < forces.size(); ++k) impulses_[k] += dt * forces[k].on_surfa;
 }
 
 std::vector<Vec> InterfaceImpulses::so_far(std::size_t count) const {
-  if (!asked_) return {};
   std::vector<Vec> out = impulses_;
   out.resize(count, Vec::Zero());
   return out;

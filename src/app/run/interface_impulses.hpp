@@ -15,22 +15,18 @@ using Contacts = std::vector<std::shared_ptr<Contact>>;
 /// All at t^n, those of the same number together.
 std::vector<InterfaceForce> interface_forces(const World& world, const Contacts& contacts);
 
-/// Integrates them over every step: samples of histories miss what acts between them. v^{n-1/2} has got these
-/// impulses.
-class InterfaceImpulses : public EnergyTerm, public Restartable {
+/// What they add up to since the start of the run. There without rcforc, too, which a restart may add.
+class InterfaceImpulses : public virtual Pass, public Restartable {
  public:
-  InterfaceImpulses(Contacts contacts, bool asked) : contacts_(std::move(contacts)), asked_(asked) {}
   std::string name() const override { return "impulses of contacts"; }
-  void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
-  void sample(const World&, const Clock&, EnergyLedger&) const override {}
   void keep(Archive& archive) override { archive("impulses", impulses_); }
   void begin() { impulses_.clear(); }
-  /// So far, of so many forces as there are; empty without rcforc.
+  void add(const std::vector<InterfaceForce>& forces, Real dt);
+  /// So far, of so many forces as there are.
   std::vector<Vec> so_far(std::size_t count) const;
+  bool summed = false;  ///< by a pass of each step: rcforc is asked for
 
  private:
-  Contacts contacts_;
-  bool asked_;
   std::vector<Vec> impulses_;  ///< in the order of `interface_forces` [ML/T]
 };
 

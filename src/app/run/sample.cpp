@@ -220,7 +220,7 @@ void Simulation::sample_all(const std::string& dt_controlled_by, Sample& s) {
   for (auto* watch : world_.passes.all<ShapeWatch>()) watch->look(world_, clock_.cycle);
   s.interfaces = interface_forces(world_, contacts());
   for (const auto* impulses : world_.passes.all<InterfaceImpulses>())
-    s.impulses = impulses->so_far(s.interfaces.size());
+    if (impulses->summed) s.impulses = impulses->so_far(s.interfaces.size());
   sample_boundary_forces(world_, clock_, s.boundary_forces);
   for (const auto* wall : world_.passes.all<const RigidWallReporter>())
     s.rigid_walls.push_back(wall->report_wall());
