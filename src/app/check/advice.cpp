@@ -66,8 +66,7 @@ std::string advice_for_flow(const StopFacts& f) {
   if (f.density_high > 2)
     return fmt::format(
         "the density reached {:.3g} RO: an impact too fast for this equation of state; raise {}, or lower "
-        "the "
-        "speed",
+        "the speed",
         f.density_high, modulus_of(f));
   if (f.tension && (f.cause == StopCause::density || f.density_low < 0.5))
     return fmt::format(

@@ -25,8 +25,8 @@ struct StopFacts {
   std::int64_t initial_penetrations = 0;
   Real initial_depth = 0;   ///< deepest of these
   std::int64_t leaked = 0;  ///< particles that went through a wall
-  std::string
-      stiffness_field;    ///< of the equation of state of a liquid; empty: none is nearly incompressible
+  /// Of the equation of state of a liquid; empty: none is nearly incompressible.
+  std::string stiffness_field;
   bool tension = false;   ///< some liquid allows tension (PC < 0)
   bool strength = false;  ///< some particles have strength
   bool particles = true;  ///< there are any

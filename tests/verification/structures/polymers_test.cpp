@@ -5,16 +5,12 @@
 #include <cmath>
 
 #include "cube_decks.hpp"
-#include "same_bits.hpp"
-#include "shell_decks.hpp"
-#include "solid_decks.hpp"
+#include "same_bits_of_material.hpp"
 
 using namespace courant;
 using test::do_nothing;
 using test::driven_cube;
-using test::ShellDeck;
 using test::simulation_of;
-using test::SolidDeck;
 
 namespace polymers_test {
 
@@ -65,19 +61,8 @@ TEST(Polymers, BarsFollowTheirCurves) {
 }
 
 TEST(Polymers, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
-  for (const std::string& material : {samp_card, rubber_card}) {
-    SolidDeck deck;
-    deck.block(Vec(3, 2, 2), 6, 4, 4, 1);
-    deck.cards = "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,1\n" + material;
-    deck.cards += "*INITIAL_VELOCITY\n0\n-0.5,0.1,-0.2\n*RIGIDWALL_PLANAR\n0\n-0.01,0.0,0.0,1.0,0.0,0.0\n";
-    test::expect_same_bits(deck.text(100), 60, 25);
-  }
-  ShellDeck deck;
-  deck.plate(1, 1, 4, 4, 1);
-  deck.part(1, 0.01, samp_card, 3);
-  deck.hold(1, "xyz", [](const Vec& x) { return x[0] < 1e-9; });
-  deck.cards += "*INITIAL_VELOCITY\n0\n4.0,1.0,2.0\n";
-  test::expect_same_bits(deck.text(100), 60, 25);
+  for (const std::string& material : {samp_card, rubber_card}) test::expect_same_bits_of_block(material);
+  test::expect_same_bits_of_sheet(samp_card);
 }
 
 }  // namespace polymers_test
