@@ -83,8 +83,8 @@ assert (mass, volume, density, sound, distance, h) == (160, 0.16, 1000, 30, 0.1,
 
 # --- 2: card layouts
 failures = []
-WRONG_LAYOUT = re.compile(r"is missing|one line too many|values behind|is not read|unknown keyword|expected (an integer|a number), got|"
-                          r"text before")
+WRONG_LAYOUT = re.compile(r"is missing|one line too many|values behind|is not read|unknown keyword|text before|"
+                          r"expected (an integer|a number), got (?!a blank field)")  # PyDyna leaves required fields blank
 # What PyDyna writes otherwise than the manual has it, and not by the values of the fields.
 ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_DE_COUPLING": "an _ID line without _ID",
        "*DEFINE_ADAPTIVE_SOLID_TO_SPH": "an _ID line without _ID",
@@ -95,11 +95,32 @@ ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_
        "*DEFINE_FUNCTION": "a text that is no function",
        "*INTEGRATION_SHELL": "points beside ESOP 1, which places them itself",
        "*INTEGRATION_BEAM": "cards of all shapes at once",
+       "*INITIAL_STRESS_SHELL_SET": "points of LARGE 0 beside LARGE 1",
+       "*INITIAL_STRESS_SOLID": "points of LARGE 0 and 1 at once",
+       "*INITIAL_STRESS_SOLID_SET": "points of LARGE 0 and 1 at once",
+       "*MAT_3-PARAMETER_BARLAT": "cards of negative M beside a positive one",
+       "*MAT_3PARAMETER_BARLAT": "cards of negative M beside a positive one",
+       "*MAT_036": "cards of negative M beside a positive one",
+       "*MAT_122": "cards of *MAT_122_TABULATED",
+       "*MAT_133": "cards of all FIT at once",
+       "*MAT_BARLAT_YLD2000": "cards of all FIT at once",
+       "*MAT_159": "the card of *MAT_159_CONCRETE beside that of *MAT_159",
+       "*PERTURBATION_NODE": "cards of all TYPE at once",
        "*ELEMENT_SHELL_BETA_OFFSET": "thicknesses of mid-side nodes that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION": "a card of sections that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_DISPLAY": "a card of sections that are not there",
        "*RIGIDWALL_GEOMETRIC_CYLINDER_MOTION_DISPLAY": "a card of sections that are not there"}
 VALUE = {int: 1, float: 2.5, str: "A"}
+
+
+def same_field(keyword, message):
+    """Whether a message is about a field that PyDyna has at the same position, so that the cards agree and the kinds of value do not."""
+    place = re.search(r"card (\d+) field (\d+) \((\w+)", message)
+    if not place:
+        return False
+    card, field = int(place[1]) - 1, int(place[2]) - 1
+    cards = [getattr(one, "_fields", []) for one in keyword._cards]
+    return card < len(cards) and field < len(cards[card]) and cards[card][field].name.upper() == place[3]
 
 
 def filled(keyword):
@@ -134,7 +155,8 @@ for name in names:
             continue
         _, stdout, stderr = check("pydyna_keyword.k", f"*KEYWORD\n{text}\n*CONTROL_TERMINATION\n       1.0\n*END\n")
         for message in re.findall(r"(?:error|warning): (.*)", stderr):
-            if WRONG_LAYOUT.search(message) and "*CONTROL_TERMINATION may stand" not in message:
+            if (WRONG_LAYOUT.search(message) and "*CONTROL_TERMINATION may stand" not in message and
+                    not same_field(keyword, message)):
                 failures.append(f"{name} {'filled' if fill else 'default'}: {message}\n{text}")
 print(f"{tried} keywords")
 assert tried >= 40, "too few keywords were tried"

@@ -223,10 +223,10 @@ bool begins_with_any(const std::string& text, const std::vector<std::string>& al
 /// No slips of the pen, though near to the name of something else.
 bool is_known(const std::string& name) {
   static const std::vector<std::string> known{
-      "DATABASE_RWFORC", "DATABASE_PBSTAT", "DATABASE_ACEOUT", "BOUNDARY_SPC_SYMMETRY_PLANE",
-      "CONTROL_CPM",     "ELEMENT_TSHELL",  "LOAD_BODY_RX",    "LOAD_BODY_RY",
-      "LOAD_BODY_RZ",    "SECTION_FPD",     "SECTION_TSHELL",  "SET_MODE",
-      "SET_NODE_GENERAL"};
+      "DATABASE_RWFORC", "DATABASE_PBSTAT", "DATABASE_ACEOUT",       "BOUNDARY_SPC_SYMMETRY_PLANE",
+      "CONTROL_CPM",     "ELEMENT_TSHELL",  "INITIAL_STRESS_TSHELL", "LOAD_BODY_RX",
+      "LOAD_BODY_RY",    "LOAD_BODY_RZ",    "SECTION_FPD",           "SECTION_TSHELL",
+      "SET_MODE",        "SET_NODE_GENERAL"};
   return begins_with_any(name, known) || find_law(name) || has_law_number(name);
 }
 

@@ -81,7 +81,7 @@ const RegisterStrength<Barlat> mat_barlat{
       {0.16, 0.04, 0, 0.2, 0.1, 0.2},
       {0},
       {0}}},
-    {.names = {"MAT_3-PARAMETER_BARLAT", "MAT_036"},
+    {.names = {"MAT_3-PARAMETER_BARLAT", "MAT_036", "MAT_3PARAMETER_BARLAT"},
      .purpose = "metal sheets whose yield stress and flow depend on the direction, by the surface of Barlat "
                 "and Lian",
      .id_space = IdSpace::material,
