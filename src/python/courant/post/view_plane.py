@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -33,52 +34,73 @@ def fill(x: np.ndarray, V: np.ndarray, h: np.ndarray, values: np.ndarray, window
     x: (n, 2) or more columns [L]; V: (n,) m/rho, an area [L2]; h: (n,) [L]; window: left, right, bottom, top [L].
 
     There is water where the colour C = sum V W is at least 1/2, as the surface is found, in discs of the area m/rho of drops, and in gaps thinner
-    than h; there values are Shepard's sum V W f / sum V W.
+    than h; there values are Shepard's sum V W f / sum V W. Sums are taken at points h/8 apart or closer and are linear between them.
     """
     left, right, bottom, top = window
     if len(h):
         width = max(width, min(_MOST_PIXELS, round(_PIXELS_PER_H * (right - left) / float(np.median(h)))))  # to see gaps as they are
     dx = (right - left) / width
     height = max(1, round((top - bottom) / dx))
-    pad = int(np.ceil(2 * h.max(initial=0.0) / dx)) + 1  # kernels reach over the edges of the picture
-    wide, high = width + 2 * pad, height + 2 * pad
+    per_point = max(1, int(float(h.min()) / (_PIXELS_PER_H * dx))) if len(h) else 1
+    reach = -(-(int(np.ceil(2 * h.max(initial=0.0) / dx)) + 1) // per_point)  # of kernels, in points
+    pad = reach * per_point  # kernels reach over the edges of the picture
+    high, wide = (-(-(count + 2 * pad) // per_point) for count in (height, width))  # of points
     column, row = np.floor((x[:, 0] - left) / dx).astype(int) + pad, np.floor((x[:, 1] - bottom) / dx).astype(int) + pad
-    inside = (column >= 0) & (column < wide) & (row >= 0) & (row < high)
+    inside = (column >= 0) & (column < wide * per_point) & (row >= 0) & (row < high * per_point)
     if not inside.any():
         return np.full((height, width), np.nan)
-    (x, y), V, h, values = x[inside, :2].T, V[inside], h[inside], values[inside]
-    column, row, factor = column[inside], row[inside], V * spline_norm(h, 2)
-    C, f, near = np.zeros(wide * high), np.zeros(wide * high), np.full(wide * high, False)
-    own: list[tuple[np.ndarray, np.ndarray]] = []  # pixels in a particle's own disc, and its number
-    p = column[:, None] + np.arange(-pad, pad + 1)  # (particles, columns): a row of pixels of all particles at a time
-    across2 = (left + (p - pad + 0.5) * dx - x[:, None]) ** 2
-    for dr in range(-pad, pad + 1):
-        q = row + dr
-        r = np.sqrt(across2 + ((bottom + (q - pad + 0.5) * dx - y) ** 2)[:, None])
-        i, j = np.nonzero((r < 2 * h[:, None]) & (p >= 0) & (p < wide) & ((q >= 0) & (q < high))[:, None])
-        at, r = q[i] * wide + p[i, j], r[i, j]
+    (x, y), V, h, values, column, row = x[inside, :2].T, V[inside], h[inside], values[inside], column[inside], row[inside]
+    factor, across, up = V * spline_norm(h, 2), x - left + pad * dx, y - bottom + pad * dx
+    C, f = np.zeros(wide * high), np.zeros(wide * high)
+    for q, i, p, r in _points_near(across, up, column // per_point, row // per_point, 2 * h, per_point * dx, reach, (wide, high)):
         weight = factor[i] * spline_shape(r / h[i])
-        _add(C, at, weight)
-        _add(f, at, weight * values[i])
-        disc = r <= np.maximum(np.sqrt(V[i] / np.pi), 0.71 * dx)
-        own.append((at[disc], i[disc]))
-    drop = C[row * wide + column] < 0.6  # particles that are alone, or nearly: the colour at the surface of water is more
-    for at, i in own:
-        near[at[drop[i]]] = True
-    wet = ((C >= 0.5) | near).reshape(high, wide)
-    wet = _closed(wet, 0.5 * float(np.median(h)) / dx) & (C > 0).reshape(high, wide)
+        _add(C, q * wide + p, weight)
+        _add(f, q * wide + p, weight * values[i])
+    C, f = (_finer(one.reshape(high, wide), per_point) for one in (C, f))
+    drop = np.flatnonzero(C[row, column] < 0.6)  # particles that are alone, or nearly: the colour at the surface of water is more
+    radius = np.maximum(np.sqrt(V[drop] / np.pi), 0.71 * dx)
+    near = np.full(C.shape, False)
+    most = int(radius.max(initial=0.0) / dx) + 1
+    for q, _, p, _ in _points_near(across[drop], up[drop], column[drop], row[drop], radius, dx, most, C.shape[::-1]):
+        near[q, p] = True
+    wet = _closed((C >= 0.5) | near, 0.5 * float(np.median(h)) / dx) & (C > 0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        field = np.where(wet.ravel(), f / C, np.nan).reshape(high, wide)
+        field = np.where(wet, f / C, np.nan)
     return field[pad : pad + height, pad : pad + width]
 
 
+def _points_near(x: np.ndarray, y: np.ndarray, column: np.ndarray, row: np.ndarray, radius: np.ndarray, dx: float, reach: int,
+                 size: tuple[int, int]) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]:
+    """Centres of cells of a grid within a radius of particles, a row of cells of all particles at a time: row, particle, column, distance [L].
+
+    x, y: (n,) from the corner of the grid [L]; column, row: (n,) of the particles; reach: of the radii, in cells; size: columns, rows."""
+    p = column[:, None] + np.arange(-reach, reach + 1)  # (particles, columns)
+    across2 = ((p + 0.5) * dx - x[:, None]) ** 2
+    for dr in range(-reach, reach + 1):
+        q = row + dr
+        r2 = across2 + (((q + 0.5) * dx - y) ** 2)[:, None]
+        i, j = np.nonzero((r2 < (radius**2)[:, None]) & (p >= 0) & (p < size[0]) & ((q >= 0) & (q < size[1]))[:, None])
+        yield q[i], i, p[i, j], np.sqrt(r2[i, j])
+
+
+def _finer(values: np.ndarray, factor: int) -> np.ndarray:
+    """Values at the centres of cells, linear between these, at the centres of factor x factor parts of each cell."""
+    for axis in (0, 1) if factor > 1 else ():
+        at = np.clip((np.arange(values.shape[axis] * factor) + 0.5) / factor - 0.5, 0, values.shape[axis] - 1)
+        low = np.minimum(at.astype(int), max(0, values.shape[axis] - 2))
+        share = np.expand_dims(at - low, 1 - axis)
+        high = np.minimum(low + 1, values.shape[axis] - 1)
+        values = (1 - share) * values.take(low, axis) + share * values.take(high, axis)
+    return values
+
+
 def _add(total: np.ndarray, at: np.ndarray, more: np.ndarray) -> None:
-    """Sums of `more` by pixel; of few ones without a pass over all of the picture, which takes minutes where few particles fill it. The bits are the same."""
+    """Sums of `more` by point; of few ones without a pass over all of them, which takes minutes where few particles fill it. The bits are the same."""
     if 20 * len(at) > len(total):
         total += np.bincount(at, more, len(total))
     elif len(at):
-        pixels, number = np.unique(at, return_inverse=True)
-        total[pixels] += np.bincount(number.ravel(), more, len(pixels))
+        points, number = np.unique(at, return_inverse=True)
+        total[points] += np.bincount(number.ravel(), more, len(points))
 
 
 def _closed(wet: np.ndarray, radius: float) -> np.ndarray:
