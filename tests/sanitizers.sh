@@ -65,9 +65,9 @@ count_tests() {  # what ran, its status, log of googletest
 
 step_build() {
   install_packages "${build_packages[@]}" "${test_packages[@]}" clang-14 libomp-14-dev
-  # Without precompiled headers, which is the default of CMake, so that a missing include is seen.
+  # All but the quick build without precompiled headers, so that a missing include is seen; with them a third less time.
   configure -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DCMAKE_BUILD_TYPE=None -DCOURANT_TESTS=ON \
-    -DCOURANT_UNITY=ON -DCOURANT_PRECOMPILED_HEADERS=OFF "-DCMAKE_CXX_FLAGS=$flags" "${options[@]}"
+    -DCOURANT_UNITY=ON "-DCOURANT_PRECOMPILED_HEADERS=${quick:-no}" "-DCMAKE_CXX_FLAGS=$flags" "${options[@]}"
   build_targets "${targets[@]}"
 }
 

@@ -120,9 +120,9 @@ configure() {  # cmake options
   mkdir -p "$logs" 2>/dev/null && [ -w "$logs" ] || stop "the folder $project/build cannot be written to."
   [ -f "$build/build.ninja" ] && [ $# -eq 0 ] && return 0
   # A new build takes several files at once and reads common headers once: half the time.
-  [ -f "$build/CMakeCache.txt" ] || set -- -DCOURANT_UNITY=ON -DCOURANT_PRECOMPILED_HEADERS=ON "$@"
+  [ -f "$build/CMakeCache.txt" ] || set -- -DCMAKE_BUILD_TYPE=Release -DCOURANT_UNITY=ON -DCOURANT_PRECOMPILED_HEADERS=ON "$@"
   say "Configuring in ${build#"$project"/}"
-  cmake -S "$project" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$logs/configure.log" 2>&1 ||
+  cmake -S "$project" -B "$build" -G Ninja "$@" >"$logs/configure.log" 2>&1 ||
     stop "CMake could not configure the build." "$(grep -m1 -A3 'CMake Error' "$logs/configure.log" | tr '\n' ' ')" \
       "Details: $logs/configure.log"
 }

@@ -43,6 +43,7 @@ class Evaluator {
     if (names_.find)
       if (const auto value = names_.find(name, reason)) return {typed(*value)};
     if (!reason.empty()) return {{}, std::move(reason)};
+    if (name == "pi" || name == "PI") return {typed(Number::of(pi))};  // where no parameter has that name
     const std::string near = names_.all ? nearest_word(std::string(name), names_.all()) : "";
     return {{},
             fmt::format("unknown parameter '{}'", name),

@@ -57,7 +57,11 @@ std::vector<CardOf<T>> contact_first_cards() {
             {"DC", &T::dc, "T/L", "decay: mu = FD + (FS - FD) exp(-DC v)", {.check = Check::not_negative}},
             {"VC", &T::vc, "M/LT2", "largest friction stress, 0: no limit", {.check = Check::not_negative}},
             {"VDC", &T::vdc, "-", "normal damping in percent of critical", {.check = Check::not_negative}},
-            {"PENCHK", &T::penchk, "-", "release of deeply penetrated nodes", {.honour = Honour::no}},
+            {"PENCHK",
+             &T::penchk,
+             "-",
+             "release of deep nodes, refused but for automatic contacts, where it has no effect",
+             {}},
             {"BT", &T::bt, "T", "birth time", {.check = Check::not_negative}},
             {"DT", &T::dt, "T", "death time", {.standard = 1e20, .check = Check::positive}}}},
       {.fields = {

@@ -100,6 +100,7 @@ void find_laws(const Deck& deck, const Model& model, Diagnostics& diagnostics, c
     else if (rigid.of_part[k] && bulk_modulus == 0)
       bulk_modulus = model.parts[k].ssf * rigid.of_part[k]->bulk_modulus();
   }
+  check_mass_scaling(deck, diagnostics);
   const MassScaling scaling = mass_scaling_of(deck);
   growth.in_run = scaling.step > 0 && !scaling.once;
 }
@@ -145,7 +146,7 @@ void finish_masses(const Deck& deck, const Model& model, World& world, Diagnosti
   take_back_added_mass(unweighed.nodes, world);
   if (diagnostics.ok()) {
     report_mass_scaling(deck, model, world, diagnostics);
-    report_weld_scaling(model, beams, world, diagnostics);
+    report_beam_scaling(deck, model, beams, world, diagnostics);
   }
   add_rotary_inertias(deck, model, world, diagnostics);
   start_rotations(model, nodes.of_model, world);

@@ -72,22 +72,28 @@ class AddedMassLimit : public EnergyTerm {
   Real of_material_ = 0;  ///< [M]
 };
 
-void warn_of_rest(const Deck& deck, const ControlTimestepCard& card, const Model& model, const World& world,
+void warn_of_rest(const Deck& deck, const ControlTimestepCard& card, const World& world,
                   Diagnostics& diagnostics) {
-  const bool scaled = std::any_of(world.groups.begin(), world.groups.end(), [](const auto& g) {
-    return g->corners() > 2 && added_mass_of(g->fields) != nullptr;
-  });
+  const bool scaled = std::any_of(world.groups.begin(), world.groups.end(),
+                                  [](const auto& g) { return added_mass_of(g->fields) != nullptr; });
   if (!scaled)
     deck.warning(diagnostics, card, "DT2MS",
-                 "has no effect: the deck has no solids and no shells that deform", "leave it blank");
-  for (const auto& [there, what] : {std::pair(scaled && world.particles.size() > 0, "particles keep"),
-                                    std::pair(scaled && !model.beams.empty(), "beams keep")})
-    if (there)
-      deck.warning(diagnostics, card, "DT2MS",
-                   fmt::format("adds mass to solids and shells alone: {} the step that they need", what), "");
+                 "has no effect: the deck has no solids, shells or beams that deform", "leave it blank");
+  else if (world.particles.size() > 0)
+    deck.warning(diagnostics, card, "DT2MS",
+                 "adds mass to elements alone: particles keep the step that they need", "");
 }
 
 }  // namespace
+
+void check_mass_scaling(const Deck& deck, Diagnostics& diagnostics) {
+  const auto* card = deck.last<ControlTimestepCard>();
+  if (!card || card->dt2ms == 0) return;
+  for (const auto& [field, value] : {std::pair("IMSCL", Real(card->imscl)), std::pair("EMSCL", card->emscl)})
+    if (value != 0)
+      deck.refuse(diagnostics, *card, field, fmt::format("'{:g}' is not supported", value),
+                  "leave the field blank or 0");
+}
 
 MassScaling mass_scaling_of(const Deck& deck) {
   const auto* card = deck.last<ControlTimestepCard>();
@@ -218,7 +224,7 @@ void report_mass_scaling(const Deck& deck, const Model& model, World& world, Dia
   constexpr Real much = 5;  // per cent
   const auto* card = deck.last<ControlTimestepCard>();
   if (!card || card->dt2ms == 0) return;
-  warn_of_rest(deck, *card, model, world, diagnostics);
+  warn_of_rest(deck, *card, world, diagnostics);
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
     const PartMass m = mass_of(world, static_cast<Index>(k));
     if (m.scaled == 0 || model.parts[k].has_beam) continue;

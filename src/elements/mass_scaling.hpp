@@ -15,6 +15,8 @@ struct MassScaling {
   bool once = false;    ///< MS1ST 1: masses are those of the start
 };
 MassScaling mass_scaling_of(const Deck& deck);
+/// Refuses what is not supported of it.
+void check_mass_scaling(const Deck& deck, Diagnostics& diagnostics);
 
 /// The masses of a group of elements, which grow with the square of what their step lacks: inertia, and the
 /// viscosities that are measured by it, are those of a denser material, stress is not. Nodes of rigid bodies

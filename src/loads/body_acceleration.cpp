@@ -132,7 +132,7 @@ void check_body_loads_2d(const Deck& deck, Diagnostics& diagnostics) {
                         "gravity of a 2D scene is *LOAD_BODY_X or *LOAD_BODY_Y");
   };
   for (const LoadBodyCard& card : deck.all<LoadBodyCard>())
-    if (card.name == 2 && card.sf != 0) warn(card);
+    if (card.name == 2 && card.cid == 0 && card.sf != 0) warn(card);
   for (const LoadGravityPartCard& card : deck.all<LoadGravityPartCard>())
     if (card.dof == 3 && card.accel != 0) warn(card);
   for (const LoadBodyVectorCard& card : deck.all<LoadBodyVectorCard>())

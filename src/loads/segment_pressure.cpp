@@ -262,6 +262,7 @@ class PressureReader {
     if (charge == charges.end())
       return refuse("BID", fmt::format("charge {} does not exist", card.bid),
                     "define it with *LOAD_BLAST_ENHANCED");
+    if (charge->refused) return false;
     if (world_.dim == 2)
       return refuse("BID", "blasts are not supported in plane scenes", "use *LOAD_SEGMENT");
     if (!add_face(card, field, id)) return false;

@@ -77,6 +77,7 @@ class ParticleBuilder {
         continue;
       }
       const SectionSph& s = *found->second;
+      refuse_death(s, "DEATH", s.death);
       if (s.hmin > s.hmax)
         deck_.error(diagnostics_, s, "HMIN",
                     fmt::format("expected a number <= HMAX = {:g}, got '{:g}'", s.hmax, s.hmin),
@@ -85,6 +86,13 @@ class ParticleBuilder {
       settings_.h_min_factor[k] = s.hmin;
       settings_.h_max_factor[k] = s.hmax;
     }
+  }
+
+  /// Particles interact to the end.
+  void refuse_death(const Entry& card, const char* field, Real death) {
+    if (death < model_.endtim)
+      deck_.refuse(diagnostics_, card, field, fmt::format("'{:g}', before ENDTIM, is not supported", death),
+                   "leave the field blank");
   }
 
   void read_viscosities() {
@@ -107,6 +115,12 @@ class ParticleBuilder {
     const ControlSph* c = deck_.last<ControlSph>();
     const ControlSph standard{};
     if (c == nullptr || model_.sph.empty()) c = &standard;  // rigid bodies alone are in space
+    refuse_death(*c, "DT", c->dt);
+    const auto parts = std::count_if(model_.parts.begin(), model_.parts.end(),
+                                     [](const ModelPart& part) { return part.has_sph; });
+    if (c->cont == 1 && parts > 1)
+      deck_.refuse(diagnostics_, *c, "CONT", fmt::format("'1' is not supported with {} SPH parts", parts),
+                   "leave the field blank or 0: parts that meet interact");
     world_.dim = c->idim == 2 ? 2 : c->idim == 3 ? 3 : dimension_of_geometry();
     settings_.dim = world_.dim;
     settings_.maxv = std::abs(c->maxv) >= 1e15 ? 0 : c->maxv;

@@ -114,13 +114,13 @@ VALUE = {int: 1, float: 2.5, str: "A"}
 
 
 def same_field(keyword, message):
-    """Whether a message is about a field that PyDyna has at the same position, so that the cards agree and the kinds of value do not."""
-    place = re.search(r"card (\d+) field (\d+) \((\w+)", message)
-    if not place:
+    """Whether a message is about a field that PyDyna has at the same position: the cards agree, the kinds of value do not."""
+    found = re.search(r"card (\d+) field (\d+) \((\w+)", message)
+    if not found:
         return False
-    card, field = int(place[1]) - 1, int(place[2]) - 1
+    card, field = int(found[1]) - 1, int(found[2]) - 1
     cards = [getattr(one, "_fields", []) for one in keyword._cards]
-    return card < len(cards) and field < len(cards[card]) and cards[card][field].name.upper() == place[3]
+    return card < len(cards) and field < len(cards[card]) and cards[card][field].name.upper() == found[3]
 
 
 def filled(keyword):

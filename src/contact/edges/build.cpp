@@ -143,7 +143,7 @@ class EdgeContactBuilder {
                                   "give SOFT 1, which takes it from masses, or of a *MAT_NULL YM and PR");
       ContactEdge edge;
       edge.node = beam.node;
-      edge.r = measures_.beam_radius(beam.area);
+      edge.r = measures_.beam_radius(group.part, beam.area);
       edge.of_part = group.part;
       edge.k = law.sfs[0] * K * beam.area / beam.length;
       edge.area = 2 * edge.r * beam.length;

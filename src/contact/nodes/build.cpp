@@ -43,6 +43,9 @@ class NodeContactBuilder {
     if (diagnostics_.errors() > errors) return;
     ContactSides sides;
     measures_.take(c);
+    if (c.penchk != 0 && !kind_of(c).automatic)
+      deck_.refuse(diagnostics_, c, "PENCHK", fmt::format("'{}' is not supported", c.penchk),
+                   "leave the field blank or 0: PENMAX gives the depth of release");
     add_nodes(0, nodes_a, c.surfatyp == 4 ? finder_.faces_around(nodes_a) : faces_a, sides);
     add_faces(c, kind.single ? 0 : 1, 1U, faces_b, sides);
     if (kind.symmetric) {
@@ -214,7 +217,8 @@ class NodeContactBuilder {
   void add_beam_nodes(const ContactCard& c, ContactSides& sides) {
     std::map<Index, Real> radius;
     for (const BeamEdge& beam : finder_.beams(c))
-      for (const Index n : beam.node) radius[n] = std::max(radius[n], measures_.beam_radius(beam.area));
+      for (const Index n : beam.node)
+        radius[n] = std::max(radius[n], measures_.beam_radius(world_.groups[beam.group]->part, beam.area));
     for (const ContactNode& node : sides.nodes) radius.erase(node.node);
     for (const auto& [n, r] : radius) {
       ContactNode node;

@@ -147,7 +147,8 @@ std::vector<Index> FaceFinder::faces(const ContactCard& card, ContactSide side, 
   std::vector<Index> out;
   if (f.type == node_set) return out;
   if (f.id == 0 && !everything) {
-    deck_.error(diagnostics_, card, f.field, "names no surface", "give the id of a part, or of a set");
+    deck_.error(diagnostics_, card, f.field, "names no surface",
+                "give the id of a part, or of a set; for all parts use *CONTACT_AUTOMATIC_SINGLE_SURFACE");
     return out;
   }
   if (!everything && f.type == segment_set)

@@ -38,7 +38,8 @@ Real ContactMeasures::half_thickness(int side, Index s) const {
   if (!(rigid ? shells_.of_rigid : shells_.of_others)) return shells_.given ? 0.5 * given : 0;
   const Real scale = side == 0 ? card_->sfsat : card_->sfsbt;
   Real t = given > 0 ? given : contact_thickness(g, s) * scale;
-  if (shells_.limited)
+  const bool by_default = !(given > 0) && !(model_.parts[static_cast<std::size_t>(g.part[s])].optt > 0);
+  if (shells_.limited && by_default)
     for (std::size_t e = 0; e < 4; ++e) {
       const Index n = a[e], next = a[(e + 1) % 4];
       if (n != next) t = std::min(t, 0.4 * (world_.nodes.x.vec(n) - world_.nodes.x.vec(next)).norm());
@@ -46,7 +47,9 @@ Real ContactMeasures::half_thickness(int side, Index s) const {
   return 0.5 * t;
 }
 
-Real ContactMeasures::beam_radius(Real area) const {
+Real ContactMeasures::beam_radius(Index part, Real area) const {
+  const Real optt = model_.parts[static_cast<std::size_t>(part)].optt;
+  if (!(card_->sast > 0) && optt > 0) return 0.5 * optt;
   return card_->sast > 0 ? 0.5 * card_->sast : card_->sfsat * std::sqrt(area / pi);
 }
 

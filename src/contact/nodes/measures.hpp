@@ -15,8 +15,8 @@ class ContactMeasures {
   void take(const ContactCard& card);
   /// Of a face, which belongs to SURFA (0) or SURFB (1). [L]
   Real half_thickness(int side, Index segment) const;
-  /// Of a beam of that cross section, of SURFA. [L]
-  Real beam_radius(Real area) const;
+  /// Of a beam of that part and cross section, of SURFA. [L]
+  Real beam_radius(Index part, Real area) const;
   /// Of a face, without the scales of the card. [M/T2]
   Real stiffness(Index segment, Real area) const;
   NodeContactLaw law() const;

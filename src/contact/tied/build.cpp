@@ -56,10 +56,14 @@ class TiedBuilder {
     bool exact = kind.form != TieForm::spring;
     if (const auto why =
             exact ? why_not_exact(c, ties, tied_, corners_, model_, options_, world_) : std::nullopt) {
-      if (kind.form == TieForm::exact) return error(c, why->field, why->text, why->hint);
       exact = false;
-      diagnostics_.note(deck_.where(c), fmt::format("{}: springs hold displacements and rotations, as {}",
-                                                    deck_.keyword(c), why->text));
+      if (kind.form == TieForm::exact) {
+        for (Tie& tie : ties) tie.k *= stiff / slsfac_;
+        warning(c, why->field, why->text + ": springs hold nodes and faces, as stiff as a row of elements",
+                why->hint);
+      } else
+        diagnostics_.note(deck_.where(c), fmt::format("{}: springs hold displacements and rotations, as {}",
+                                                      deck_.keyword(c), why->text));
     }
     if (exact) drop_held(c, ties);
     if (ties.empty()) return;
@@ -73,6 +77,10 @@ class TiedBuilder {
     hold_by_springs({.id = id, .title = c.title, .strength = strength, .death = death_of(c)},
                     std::move(ties));
   }
+
+  /// Stiffness of springs for ties that should be exact, over that of a penalty with SLSFAC 1: that of
+  /// elements, which leaves them their step.
+  static constexpr Real stiff = 3;
 
   /// Relaxation in front of the run has a time of its own, in which nothing dies.
   Real death_of(const ContactCard& c) const {
@@ -186,6 +194,11 @@ class TiedBuilder {
   void error(const ContactCard& c, const char* field, std::string message, std::string hint) {
     if (field[0] != 0) return deck_.error(diagnostics_, c, field, std::move(message), std::move(hint));
     diagnostics_.error(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));  // of the whole
+  }
+
+  void warning(const ContactCard& c, const char* field, std::string message, std::string hint) {
+    if (field[0] != 0) return deck_.warning(diagnostics_, c, field, std::move(message), std::move(hint));
+    diagnostics_.warning(deck_.where(c), deck_.keyword(c) + ": " + message, std::move(hint));
   }
 
   /// Which nodes are next to which faces, with what is to be reported of that.

@@ -23,7 +23,7 @@ bool of_beams(const std::vector<Tie>& ties, const Model& model, const World& wor
 std::optional<WhyNotExact> why_not_exact(const ContactCard& c, const std::vector<Tie>& ties,
                                          const std::set<Index>& tied, const std::set<Index>& corners,
                                          const Model& model, const TiedOptions& options, const World& world) {
-  const char* const springs = "use the contact with _OFFSET, whose springs may hold any nodes and faces";
+  const char* const springs = "use the contact with _OFFSET, where that is meant";
   const char* const exchange = "exchange SURFA and SURFB of one of the contacts, or use it with _OFFSET";
   std::set<Index> eroding;
   for (const auto& group : world.groups)

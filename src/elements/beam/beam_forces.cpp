@@ -67,7 +67,7 @@ class BeamForces : public Material,
     for (Field<Real>* h : history_) lay_size(*h, group_.size(), [&](Index e) { return start_[e]; });
     if (shown) add_shown_fields();
     if (part_.weld) sections_.emplace(*part_.weld, group_);
-    if (part_.weld && part_.weld->dt > 0) scale_masses(world);
+    scale_masses(scaling_of(part_, options.scaling), world);
     coef_ = options.stiffness_damping[at(group_.part)];
     if (coef_ != 0) {
       damping_ = &add("damping_forces", "-", count6), beta_ = &add("stiffness_damping_time", "T", 1);
@@ -232,16 +232,17 @@ class BeamForces : public Material,
     return 2 / std::sqrt(largest_square(part_.kind, *part_.law, m, mass, inertia, start_[e], length, pull));
   }
 
-  /// DT of welds: at the start, inertia in the same ratio.
-  void scale_masses(World& world) {
-    Field<Real>& inertia = add("corner_inertia", "ML2", 1);
+  /// Inertia grows in the same ratio as mass.
+  void scale_masses(const MassScaling& rules, World& world) {
+    if (rules.step == 0) return;
+    Field<Real>* const inertia = turns_ ? &add("corner_inertia", "ML2", 1) : nullptr;
     std::vector<Real> step;
     for (Index e = 0; e < group_.size(); ++e) {
-      inertia[e] = end_inertia(part_.kind, *part_.law, part_.measures[at(e)], group_.mass[e], start_[e]);
+      if (inertia)
+        (*inertia)[e] = end_inertia(part_.kind, *part_.law, part_.measures[at(e)], group_.mass[e], start_[e]);
       step.push_back(step_of(e, start_[e], 0));
     }
-    scaled_ = std::make_unique<ScaledMass>(MassScaling{.step = part_.weld->dt, .once = true}, group_,
-                                           &inertia, world);
+    scaled_ = std::make_unique<ScaledMass>(rules, group_, inertia, world);
     scaled_->start(step, world);
   }
   void make_erosion(const FailureRules& rules, ElementOptions& options, World& world) {

@@ -110,23 +110,35 @@ void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::ve
   }
 }
 
-void report_weld_scaling(const Model& model, const std::vector<BeamPart>& parts, const World& world,
-                         Diagnostics& diagnostics) {
+MassScaling scaling_of(const BeamPart& part, const MassScaling& of_deck) {
+  if (part.null) return {};
+  MassScaling out = of_deck;
+  if (part.weld && part.weld->dt > out.step) out = {.step = part.weld->dt};
+  out.once = true;
+  return out;
+}
+
+void report_beam_scaling(const Deck& deck, const Model& model, const std::vector<BeamPart>& parts,
+                         const World& world, Diagnostics& diagnostics) {
   constexpr Real much = 5;  // per cent of all mass of elements
   Real all = 0;
   for (const auto& group : world.groups)
     for (Index e = 0; e < group->size(); ++e) all += group->mass[e];
+  const MassScaling of_deck = mass_scaling_of(deck);
   for (const BeamPart& part : parts) {
-    if (!part.group || !part.weld || !(part.weld->dt > 0)) continue;
+    if (!part.group) continue;
     const Real added = added_mass(*part.group);
-    if (!(added > 0)) continue;
+    if (added == 0) continue;
     const ModelPart& of_model = model.parts[static_cast<std::size_t>(part.part)];
+    const Real step = scaling_of(part, of_deck).step;
     std::string text = fmt::format(
-        "mass scaling to DT = {:g} of *MAT_SPOTWELD: the welds of part {} have {:.4g} [M] more, {:.3g} % of "
-        "the mass of all elements",
-        part.weld->dt, of_model.id, added, 100 * added / (all - added));
-    if (added > much / 100 * (all - added))
-      diagnostics.warning(of_model.where, std::move(text), "a smaller DT adds less");
+        "mass scaling to {} = {:g} of {}: the beams of part {} have {:.4g} [M] more, {:.3g} % of the mass of "
+        "all elements",
+        step > of_deck.step ? "DT" : "|DT2MS|", step,
+        step > of_deck.step ? "*MAT_SPOTWELD" : "*CONTROL_TIMESTEP", of_model.id, added,
+        100 * added / (all - added));
+    if (std::abs(added) > much / 100 * (all - added))
+      diagnostics.warning(of_model.where, std::move(text), "a shorter step adds less");
     else
       diagnostics.note(of_model.where, std::move(text));
   }

@@ -65,12 +65,15 @@ std::vector<Index> beam_nodes(const Model& model);
 /// each node of the model. 2D is an error.
 void build_beams(const Model& model, std::vector<BeamPart>& parts, const std::vector<Index>& node_of,
                  World& world, Diagnostics& diagnostics);
-/// Adds the forces of beams to the passes of `world`, and the mass of welds by DT.
+/// Adds the forces of beams to the passes of `world`, and their mass by DT2MS or DT of *MAT_SPOTWELD.
 void add_beam_passes(const Model& model, const std::vector<BeamPart>& parts, ElementOptions& options,
                      World& world);
-/// Tells what DT of *MAT_SPOTWELD has added.
-void report_weld_scaling(const Model& model, const std::vector<BeamPart>& parts, const World& world,
-                         Diagnostics& diagnostics);
+/// The longer of the steps by DT2MS and DT of *MAT_SPOTWELD, at the start alone; beams without stress get no
+/// mass.
+MassScaling scaling_of(const BeamPart& part, const MassScaling& of_deck);
+/// Reports the mass that it has added.
+void report_beam_scaling(const Deck& deck, const Model& model, const std::vector<BeamPart>& parts,
+                         const World& world, Diagnostics& diagnostics);
 
 /// Inertia that a beam gives each of its ends, so that its step is that of waves along it. [ML2]
 Real end_inertia(BeamKind kind, const StrengthLaw& law, const BeamMeasures& m, Real mass, Real length);

@@ -109,7 +109,7 @@ std::string cannot_do_markdown() {
       listed_names(output_requests()));
   out += fmt::format(
       "\n## Definitions that nothing reads\n\nA keyword that begins with one of these gives a note: {}.\n",
-      listed_names(unused_definitions()));
+      listed_names(keywords_without_effect()));
   return out;
 }
 

@@ -12,7 +12,13 @@ bool begins_with(const std::string& text, const char* beginning) {
 }
 
 const std::vector<ControlledPhysics>& all_physics() {
-  // A thermal analysis takes SOLN of *CONTROL_SOLUTION, which is refused where it asks for one.
+  static const std::vector<const char*> by_temperature = {"MAT_JOHNSON_COOK",
+                                                          "MAT_015",
+                                                          "MAT_MODIFIED_JOHNSON_COOK",
+                                                          "MAT_107",
+                                                          "MAT_TABULATED_JOHNSON_COOK",
+                                                          "MAT_224",
+                                                          "MAT_ADD_THERMAL"};
   static const std::vector<ControlledPhysics> all = {
       {"CONTROL_AIRBAG", "airbags", {"AIRBAG"}},
       {"CONTROL_ALE", "ALE meshes", {"ALE", "CONSTRAINED_LAGRANGE", "INITIAL_VOLUME_FRACTION"}},
@@ -27,10 +33,8 @@ const std::vector<ControlledPhysics>& all_physics() {
       {"CONTROL_STAGED_CONSTRUCTION",
        "staged constructions",
        {"DEFINE_STAGED_CONSTRUCTION", "DEFINE_CONSTRUCTION_STAGES"}},
-      {"CONTROL_THERMAL",
-       "thermal analysis",
-       {"BOUNDARY_CONVECTION", "BOUNDARY_FLUX", "BOUNDARY_RADIATION", "BOUNDARY_TEMPERATURE",
-        "INITIAL_TEMPERATURE", "LOAD_HEAT", "LOAD_THERMAL", "MAT_THERMAL"}},
+      {"INITIAL_TEMPERATURE", "materials that depend on the temperature", by_temperature},
+      {"LOAD_THERMAL", "materials that depend on the temperature", by_temperature},
   };
   return all;
 }

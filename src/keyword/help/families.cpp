@@ -25,10 +25,8 @@ constexpr Family families[] = {
     {"BOUNDARY_ACOUSTIC", "acoustic boundary conditions"},
     {"BOUNDARY_ALE", "ALE meshes"},
     {"BOUNDARY_AMBIENT", "ambient boundaries of ALE meshes"},
-    {"BOUNDARY_CONVECTION", "thermal boundary conditions"},
     {"BOUNDARY_CYCLIC", "cyclic boundaries"},
     {"BOUNDARY_DE", "discrete element spheres"},
-    {"BOUNDARY_FLUX", "thermal boundary conditions"},
     {"BOUNDARY_NON_REFLECTING", "plane non-reflecting boundaries"},
     {"BOUNDARY_PORE", "pore pressures"},
     {"BOUNDARY_PRESCRIBED_ACCELEROMETER", "prescribed motions"},
@@ -37,7 +35,6 @@ constexpr Family families[] = {
     {"BOUNDARY_PRESCRIBED_ORIENTATION", "prescribed motions"},
     {"BOUNDARY_PRESSURE", "pressure boundaries"},
     {"BOUNDARY_PWP", "pore pressures"},
-    {"BOUNDARY_RADIATION", "thermal boundary conditions"},
     {"BOUNDARY_SALE", "ALE meshes"},
     {"BOUNDARY_SLIDING_PLANE", "sliding planes"},
     {"BOUNDARY_SPC", "this kind of constraint"},
@@ -46,8 +43,6 @@ constexpr Family families[] = {
     {"BOUNDARY_SPH_NON_REFLECTING", "non-reflecting boundaries"},
     {"BOUNDARY_SPH_PERIODIC", "periodic boundaries of particles"},
     {"BOUNDARY_SPH_SYMMETRY_PLANE", "SPH symmetry planes"},
-    {"BOUNDARY_TEMPERATURE", "thermal boundary conditions"},
-    {"BOUNDARY_THERMAL", "thermal boundary conditions"},
     {"CESE", "compressible flows (CESE)"},
     {"CHANGE", "changes at a restart"},
     {"CHEMISTRY", "chemical reactions"},
@@ -78,16 +73,13 @@ constexpr Family families[] = {
     {"CONTROL_CPM", "corpuscular gas particles"},
     {"CONTROL_DISCRETE_ELEMENT", "discrete element spheres"},
     {"CONTROL_EFG", "element-free Galerkin methods"},
-    {"CONTROL_EXPLICIT_THERMAL", "thermal analyses"},
     {"CONTROL_FORMING", "metal-forming tools"},
     {"CONTROL_FREQUENCY_DOMAIN", "frequency-domain analyses"},
-    {"CONTROL_IMPLICIT", "implicit analyses"},
     {"CONTROL_PORE", "pore pressures"},
     {"CONTROL_REFINE", "adaptive meshes"},
     {"CONTROL_REMESHING", "adaptive meshes"},
     {"CONTROL_STAGED_CONSTRUCTION", "staged constructions"},
     {"CONTROL_SUBCYCLE", "different steps for different elements"},
-    {"CONTROL_THERMAL", "thermal analyses"},
     {"CONTROLLER", "controllers"},
     {"COSIM", "couplings to other programs"},
     {"DAMPING", "this kind of damping"},
@@ -148,7 +140,6 @@ constexpr Family families[] = {
     {"INITIAL_DETONATION", "detonations"},
     {"INITIAL_FOAM_REFERENCE_GEOMETRY", "reference geometries"},
     {"INITIAL_PWP", "pore pressures"},
-    {"INITIAL_STRAIN", "initial strains"},
     {"INITIAL_STRESS", "initial stresses"},
     {"INITIAL_STRESS_TSHELL", "initial stresses of thick shells"},
     {"INITIAL_TEMPERATURE", "initial temperatures"},
@@ -164,7 +155,6 @@ constexpr Family families[] = {
     {"LOAD_BODY_RY", "rotational body loads"},
     {"LOAD_BODY_RZ", "rotational body loads"},
     {"LOAD_GRAVITY", "gravity that is switched on in stages"},
-    {"LOAD_HEAT", "thermal loads"},
     {"LOAD_NODE", "this kind of force on nodes"},
     {"LOAD_RIGID_BODY", "forces on rigid bodies"},
     {"LOAD_SEGMENT", "pressures on segments"},
@@ -175,7 +165,6 @@ constexpr Family families[] = {
     {"MAT", "this material"},
     {"MAT_ADD", "additions to materials"},
     {"MAT_NONLOCAL", "non-local materials"},
-    {"MAT_THERMAL", "thermal materials"},
     {"MESH", "meshers of the flow solvers"},
     {"MODULE", "user modules"},
     {"NODE", "this form of nodes"},
@@ -206,6 +195,40 @@ constexpr Family families[] = {
     {"TERMINATION", "this criterion of termination"},
     {"TRANSLATE", "translations of other formats"},
     {"USER", "user subroutines"},
+};
+
+struct WithoutEffect {
+  const char* words;
+  const char* reason;
+};
+constexpr const char* not_referred_to = "nothing here refers to it";
+constexpr const char* not_thermal = "there is no thermal analysis (SOLN of *CONTROL_SOLUTION)";
+constexpr const char* not_implicit = "the steps are explicit (IMFLAG of *CONTROL_IMPLICIT_GENERAL)";
+constexpr WithoutEffect without_effect[] = {
+    {"BOUNDARY_CONVECTION", not_thermal},
+    {"BOUNDARY_FLUX", not_thermal},
+    {"BOUNDARY_RADIATION", not_thermal},
+    {"BOUNDARY_TEMPERATURE", not_thermal},
+    {"BOUNDARY_THERMAL", not_thermal},
+    {"CONTROL_IMPLICIT", not_implicit},
+    {"CONTROL_EXPLICIT_THERMAL", not_thermal},
+    {"CONTROL_THERMAL", not_thermal},
+    {"DEFINE_BOX_ADAPTIVE", not_referred_to},
+    {"DEFINE_BOX_COARSEN", not_referred_to},
+    {"DEFINE_BOX_DRAWBEAD", not_referred_to},
+    {"DEFINE_CONTACT_VOLUME", not_referred_to},
+    {"DEFINE_CPM", not_referred_to},
+    {"DEFINE_FILTER", not_referred_to},
+    {"DEFINE_PLANE", not_referred_to},
+    {"DEFINE_REGION", not_referred_to},
+    {"LOAD_HEAT", not_thermal},
+    {"MAT_THERMAL", not_thermal},
+    {"MAT_T01", not_thermal},
+    {"MAT_T02", not_thermal},
+    {"SET_2D", not_referred_to},
+    {"SET_DISCRETE", not_referred_to},
+    {"SET_MULTI", not_referred_to},
+    {"SET_TSHELL", not_referred_to},
 };
 
 bool begins_with_words(const std::string& text, const std::string& words) {
@@ -268,17 +291,20 @@ constexpr std::size_t slip_of_the_pen = 2, shortest_for_two = 8;
 std::vector<std::string> output_requests() {
   return {"DATABASE",      "CONTROL_OUTPUT", "CONTROL_PARALLEL",    "CONTROL_MPP",
           "CONTROL_UNITS", "CONTROL_LSDA",   "CONTROL_DEBUG",       "CONTROL_REQUIRE_REVISION",
-          "LSO",           "ELEMENT_PLOTEL", "INTERFACE_COMPONENT", "INTERFACE_SPRINGBACK_LSDYNA"};
+          "LSO",           "ELEMENT_PLOTEL", "INTERFACE_COMPONENT", "INTERFACE_SPRINGBACK_LSDYNA",
+          "INITIAL_STRAIN"};
 }
 
-std::vector<std::string> unused_definitions() {
-  return {"DEFINE_BOX_ADAPTIVE", "DEFINE_BOX_COARSEN", "DEFINE_BOX_DRAWBEAD", "DEFINE_CONTACT_VOLUME",
-          "DEFINE_FILTER",       "DEFINE_PLANE",       "DEFINE_REGION",       "SET_2D",
-          "SET_DISCRETE",        "SET_MULTI",          "SET_TSHELL"};
+std::vector<std::string> keywords_without_effect() {
+  std::vector<std::string> out;
+  for (const WithoutEffect& one : without_effect) out.push_back(one.words);
+  return out;
 }
 
-bool is_unused_definition(const std::string& name) {
-  return begins_with_any(name, unused_definitions());
+const char* why_without_effect(const std::string& name) {
+  const auto at = std::find_if(std::begin(without_effect), std::end(without_effect),
+                               [&](const WithoutEffect& one) { return begins_with_words(name, one.words); });
+  return at == std::end(without_effect) ? nullptr : at->reason;
 }
 
 bool is_output_request(const std::string& name) {

@@ -12,11 +12,12 @@ bool is_output_request(const std::string& name);
 /// First words of those requests.
 std::vector<std::string> output_requests();
 
-/// Definitions that only keywords refer to which are refused, or which ask for output: read over with a note.
-bool is_unused_definition(const std::string& name);
+/// Why a keyword changes nothing in any deck that is accepted, so that it is read over with a note; null: it
+/// may.
+const char* why_without_effect(const std::string& name);
 
-/// First words of those definitions.
-std::vector<std::string> unused_definitions();
+/// First words of those keywords.
+std::vector<std::string> keywords_without_effect();
 /// First words of the keywords that are refused, and what is lacking: "airbags"; "this ..." where some with
 /// these words are supported.
 std::vector<std::pair<std::string, std::string>> refused_families();

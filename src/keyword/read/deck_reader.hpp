@@ -53,6 +53,11 @@ class DeckReader {
     return deck_.location(file.index, static_cast<int>(line) + 1, column);
   }
 
+  // refused_definitions.cpp
+  /// Whether it is one that is not supported: close_definitions() refuses it if something refers to it.
+  bool defer_definition(const File& file, std::size_t line, const KeywordLine& keyword);
+  void close_definitions();
+
   // format_reader.cpp
   bool read_keyword_keyword(const File& file, std::size_t line, const KeywordLine& keyword);
   void read_format(const File& file, const KeywordLine& keyword, const Location& where);
@@ -101,6 +106,13 @@ class DeckReader {
     Real interval = 0;  ///< [T]
   };
   std::vector<Request> requests_;
+  struct Definition {
+    std::string name{};
+    Location where{};
+    IdSpace space = IdSpace::none;
+    Id id = 0;
+  };
+  std::vector<Definition> definitions_;
   HeldControls controls_;
 };
 

@@ -52,7 +52,7 @@ bool DeckReader::read_include_keyword(const File& file, std::size_t line, const 
 void DeckReader::read_includes(const File& file, std::size_t line) {
   DataLines data(*file.source, line + 1);
   if (data.done() || data.only_blanks_left())
-    diagnostics_.error(place(file, line), "*INCLUDE: the file name is missing");
+    diagnostics_.warning(place(file, line), "*INCLUDE names no file: nothing is included");
   while (!data.done() && !cards_.full()) {
     const std::size_t at = data.index();
     const std::string name = parameters_.with_texts(read_file_name(data));

@@ -34,6 +34,7 @@ Deck DeckReader::read(const std::string& path) {
   }
   read_file({.name = path}, std::move(source));
   if (!options_.more.empty()) read_file({.name = "the call"}, make_source(options_.more));
+  close_definitions();
   controls_.close(deck_, diagnostics_);
   close_requests();
   refusals_.close(diagnostics_);
@@ -222,8 +223,8 @@ Treatment DeckReader::read_cards(const File& file, std::size_t line, const Keywo
   if (match.keyword < 0) {
     for (DataLines data(*file.source, line + 1); !data.done(); data.step())
       parameters_.note_mentions(data.line());
-    return is_output_request(keyword.name) ? note_request(file, line, keyword, where)
-                                           : refuse(keyword.name, where);
+    if (is_output_request(keyword.name)) return note_request(file, line, keyword, where);
+    return defer_definition(file, line, keyword) ? Treatment::refused : refuse(keyword.name, where);
   }
   const KeywordSpec& spec = *keyword_registry()[static_cast<std::size_t>(match.keyword)];
   const CardReader::Block block{.file = file.index,
@@ -284,9 +285,9 @@ Treatment DeckReader::refuse(const std::string& name, const Location& where) {
                        "the name follows it directly; a comment begins with $");
     return Treatment::refused;
   }
-  if (is_unused_definition(name)) {
+  if (const char* const reason = why_without_effect(name)) {
     if (refusals_.is_first(name, diagnostics_))
-      diagnostics_.note(where, fmt::format("*{}: nothing here refers to it: no effect", name));
+      diagnostics_.note(where, fmt::format("*{}: {}: no effect", name, reason));
     return Treatment::honoured;
   }
   const bool is_output = is_output_request(name);

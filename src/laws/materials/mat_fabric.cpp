@@ -208,9 +208,11 @@ void MatFabric::check(const Deck& deck, const Model& model, Diagnostics& diagnos
   expect(prba * prba * ea < modulus_b(), "PRBA",
          "the material would give energy away: its stiffness is not positive definite", "PRBA^2 < EB/EA");
   const Real major = modulus_b() > 0 ? prba * ea / modulus_b() : 0;
-  expect(prab == 0 || std::abs(prab - major) <= 0.01 * std::abs(major), "PRAB",
-         fmt::format("expected PRBA EA/EB = {:g}, got '{:g}': strains would have no energy", major, prab),
-         "leave it blank: it follows");
+  if (prab != 0 && std::abs(prab - major) > 0.01 * std::abs(major))
+    deck.warning(
+        diagnostics, *this, "PRAB",
+        fmt::format("is not used: it is PRBA EA/EB = {:g}, with which strains have an energy", major),
+        "leave it blank");
   expect(cse == 0 || cse == 1, "CSE", fmt::format("expected 0 or 1, got '{:g}'", cse),
          "0: compression stays; 1: the fabric bears none");
   expect(form == 0 || form == 14, "FORM", fmt::format("'{}' is not supported", form),

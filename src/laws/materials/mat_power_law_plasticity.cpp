@@ -51,7 +51,11 @@ struct MatPowerLawPlasticity : MatPowerLawPlasticityFields {
     expect(pr < 0.5, "PR", "a number < 0.5", pr,
            "a material that keeps its volume has no finite bulk modulus");
     expect(n > 0 && n < 1, "N", "a number between 0 and 1", n, "the exponent of hardening");
-    expect(vp == 0 || vp == 1, "VP", "0 or 1", vp, "1: the rate is that of plastic strain");
+    if (src > 0)
+      expect(vp == 0 || vp == 1, "VP", "0 or 1", vp, "1: the rate is that of plastic strain");
+    else if (vp != 0 && vp != 1)
+      deck.warning(diagnostics, *this, "VP", "has no effect without SRC",
+                   "a strain at which points fail belongs into EPSF, the field behind");
     expect((src > 0) == (srp > 0), src > 0 ? "SRP" : "SRC", "a number > 0", 0,
            "the rate of strain counts by SRC and SRP together; leave both blank where it does not");
   }

@@ -100,7 +100,9 @@ std::vector<BlastSource> blast_sources(const Deck& deck, const Model& model, Dia
       deck.error(diagnostics, card, "BID", fmt::format("charge {} is defined twice", card.bid),
                  "give it another number");
     BlastSource source;
-    if (read_source(card, deck, model, source, diagnostics)) out.push_back(std::move(source));
+    source.refused = !read_source(card, deck, model, source, diagnostics);
+    source.id = card.bid;
+    out.push_back(std::move(source));
   }
   return out;
 }

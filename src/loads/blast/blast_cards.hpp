@@ -20,6 +20,7 @@ struct BlastSource {
   Real pounds = 1, feet = 1, milliseconds = 1, psi = 1;
   bool positive_only = false;
   Entry card{};
+  bool refused = false;  ///< its card is wrong
 
   /// At a face as far away as `distance` [L]; nothing where the fits do not hold.
   std::optional<BlastWave> wave_at(Real distance) const;

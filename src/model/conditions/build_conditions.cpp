@@ -84,8 +84,17 @@ void ModelBuilder::build_body_loads() {
     load.parts = parts;
     model_.body_loads.push_back(std::move(load));
   };
+  const auto in_system = [&](const LoadBodyCard& card, const Vec& v) -> Vec {
+    const CoordinateSystem* const system = card.cid == 0 ? nullptr : coordinate_system(card, "CID", card.cid);
+    if (!system) return v;
+    if (system->moves)
+      deck_.refuse(diagnostics_, card, "CID",
+                   fmt::format("system {} moves, which is not supported", card.cid),
+                   "give a system that stays (FLAG 0)");
+    return system->axes * v;
+  };
   for (const LoadBodyCard& card : deck_.all<LoadBodyCard>())
-    add(card, card.lcid, card.lciddr, {.direction = Vec::Unit(card.name), .sf = card.sf});
+    add(card, card.lcid, card.lciddr, {.direction = in_system(card, Vec::Unit(card.name)), .sf = card.sf});
   for (const LoadBodyVectorCard& card : deck_.all<LoadBodyVectorCard>()) {
     const Vec v(card.v1, card.v2, card.v3);
     constexpr Real rounded = 0.01;
@@ -98,7 +107,7 @@ void ModelBuilder::build_body_loads() {
           diagnostics_, card, "V1",
           fmt::format("the vector gives the direction only, its length of {:g} has no effect", v.norm()),
           "SF and the curve give the acceleration; give a vector of length 1");
-    add(card, card.lcid, card.lciddr, {.direction = v.normalized(), .sf = card.sf});
+    add(card, card.lcid, card.lciddr, {.direction = in_system(card, v.normalized()), .sf = card.sf});
   }
   for (const LoadBodyRotationCard& card : deck_.all<LoadBodyRotationCard>())
     add(card, card.lcid, card.lciddr,

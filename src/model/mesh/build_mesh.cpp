@@ -65,6 +65,7 @@ void ModelBuilder::build_nodes() {
 }
 
 void ModelBuilder::build_parts() {
+  const Entry* first_adaptive = nullptr;
   const auto add = [&](const PartCard& card) {
     if (!model_.part_of_id.try_emplace(card.pid, static_cast<Index>(model_.parts.size())).second)
       return;  // the reader has refused it
@@ -78,6 +79,12 @@ void ModelBuilder::build_parts() {
     part.where = deck_.where(card, "PID");
     part.card = card;
     model_.parts.push_back(std::move(part));
+    if (card.adpopt == 0) return;
+    if (deck_.keywords.contains("CONTROL_ADAPTIVE"))
+      deck_.refuse(diagnostics_, card, "ADPOPT", fmt::format("'{}' is not supported", card.adpopt),
+                   "leave the field blank to run with the mesh of the deck");
+    else if (!first_adaptive)
+      first_adaptive = &card;
   };
   for (const PartCard& card : deck_.all<PartCard>()) add(card);
   for (const PartContactCard& card : deck_.all<PartContactCard>()) {
@@ -97,6 +104,9 @@ void ModelBuilder::build_parts() {
     if (!part.plies.empty()) part.mid = part.plies.front().mid;  // of a rigid part that of all
     check_plies(card, part.plies, fmt::format("part {}", part.id));
   }
+  if (first_adaptive)
+    diagnostics_.note(deck_.where(*first_adaptive),
+                      "ADPOPT of parts has no effect without *CONTROL_ADAPTIVE");
   std::sort(model_.parts.begin(), model_.parts.end(),
             [](const ModelPart& a, const ModelPart& b) { return a.id < b.id; });
   for (std::size_t k = 0; k < model_.parts.size(); ++k)
@@ -110,11 +120,7 @@ void ModelBuilder::check_part_contacts() {
       deck_.warning(diagnostics_, card, field, "has no effect: " + why, "leave it blank");
     };
     const char* const thickness = card.optt > 0 ? "OPTT" : "SFT";
-    if (card.optt > 0 && part.has_beam)
-      error(card, "OPTT",
-            fmt::format("part {} is of beams, whose radius in contacts is that of their section", part.id),
-            "give SAST or SFSAT of the contact");
-    else if ((card.optt > 0 || card.sft != 1) && !part.has_shell)
+    if (card.optt > 0 ? !part.has_shell && !part.has_beam : card.sft != 1 && !part.has_shell)
       without_effect(thickness, fmt::format("part {} has no shells", part.id));
     if (card.optt > 0 && card.sft != 1) without_effect("SFT", "OPTT gives the thickness");
     if (card.ssf != 1 && part.has_sph)

@@ -15,12 +15,12 @@ CardOf<P> part_card() {
               {"EOSID", &P::eosid, "-", "equation of state id", optional_id_of(IdSpace::eos)},
               {"HGID", &P::hgid, "-", "hourglass and bulk viscosity id", optional_id_of(IdSpace::hourglass)},
               {"GRAV", &P::grav, "-", "gravity preload", unsupported},
-              {"ADPOPT", &P::adpopt, "-", "adaptivity", unsupported},
+              {"ADPOPT", &P::adpopt, "-", "adaptivity, refused beside *CONTROL_ADAPTIVE", {}},
               {"TMID",
                &P::tmid,
                "-",
-               "thermal material id",
-               {.honour = Honour::no, .refers = IdSpace::material}}}};
+               "thermal material id; there are no thermal analyses",
+               {.honour = Honour::ignored}}}};
 }
 
 }  // namespace courant

@@ -57,7 +57,8 @@ void warn_of_loads(const Deck& deck, const std::vector<Affine>& motions, Diagnos
       deck.warning(diagnostics, card, "",
                    "the load stays along the global axis, although its file is turned by a transformation");
   };
-  for (const LoadBodyCard& card : deck.all<LoadBodyCard>()) warn(card, Vec::Unit(card.name));
+  for (const LoadBodyCard& card : deck.all<LoadBodyCard>())
+    if (card.cid == 0) warn(card, Vec::Unit(card.name));
   for (const LoadGravityPartCard& card : deck.all<LoadGravityPartCard>()) warn(card, Vec::Unit(card.dof - 1));
 }
 

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "state/shared_fields.hpp"
+
 using namespace courant;
 
 namespace {
@@ -93,13 +95,26 @@ TEST(ContactMeasures, ThicknessesAreScaledByTheCardOfTheirSide) {
   EXPECT_DOUBLE_EQ(scaled.half_thickness(1, Faces::rigid), 0.5 * 0.3 * 0.25);
   EXPECT_DOUBLE_EQ(scaled.half_thickness(0, Faces::solid), 0.04);
   EXPECT_DOUBLE_EQ(scaled.half_thickness(1, Faces::solid), 0.04);
-  EXPECT_DOUBLE_EQ(scaled.beam_radius(std::numbers::pi * 0.09), 0.5 * 0.3);
+  EXPECT_DOUBLE_EQ(scaled.beam_radius(0, std::numbers::pi * 0.09), 0.5 * 0.3);
   Faces with_own(contact("AUTOMATIC_SURFACE_TO_SURFACE", ",,0.2,0.6,0.5,0.25"));
   const ContactMeasures given = with_own.measures();
   EXPECT_DOUBLE_EQ(given.half_thickness(0, Faces::shell), 0.1);
   EXPECT_DOUBLE_EQ(given.half_thickness(1, Faces::shell), 0.3);
   EXPECT_EQ(given.half_thickness(0, Faces::solid), 0);
-  EXPECT_DOUBLE_EQ(given.beam_radius(std::numbers::pi * 0.09), 0.1);
+  EXPECT_DOUBLE_EQ(given.beam_radius(0, std::numbers::pi * 0.09), 0.1);
+}
+
+// OPTT of *PART_CONTACT is the thickness of shells, and of beams their diameter; SAST and SBST go before it.
+TEST(ContactMeasures, PartsMayHaveAThicknessOfTheirOwn) {
+  for (const bool given : {false, true}) {
+    Faces faces(contact("AUTOMATIC_SINGLE_SURFACE", given ? ",,2.4,2.4,3.0,3.0" : ",,,,3.0,3.0"));
+    faces.model.parts[0].optt = 0.7;
+    shared_fields::contact_thickness.add(faces.world.segments.fields)[Faces::shell] = 0.7;
+    const ContactMeasures m = faces.measures();
+    EXPECT_DOUBLE_EQ(m.half_thickness(0, Faces::shell), given ? 1.2 : 0.5 * 0.7 * 3);
+    EXPECT_DOUBLE_EQ(m.half_thickness(0, Faces::triangle), given ? 1.2 : 0.2);  // of the part without OPTT
+    EXPECT_DOUBLE_EQ(m.beam_radius(0, 5), given ? 1.2 : 0.35);
+  }
 }
 
 // 0.4 of the shortest edge, 1, in single surface contacts unless SSTHK is 1.

@@ -33,7 +33,7 @@ TEST(Families, NameWhatIsLacking) {
   EXPECT_EQ(lacking("ICFD_PART"), "incompressible flows (ICFD)");
   EXPECT_EQ(lacking("CONSTRAINED_JOINT_CONSTANT_VELOCITY"), "this kind of joint");
   EXPECT_EQ(lacking("CONSTRAINED_SOMETHING_NEW"), "this constraint");
-  EXPECT_EQ(lacking("CONTROL_IMPLICIT_GENERAL"), "implicit analyses");
+  EXPECT_EQ(lacking("CONTROL_COUPLING"), "couplings to other programs");
   EXPECT_EQ(lacking("RIGIDWALL_PLANAR"), "rigid walls");
   EXPECT_EQ(not_supported("airbags"), "airbags are not supported");
   EXPECT_EQ(not_supported("this constraint"), "this constraint is not supported");

@@ -104,6 +104,16 @@ TEST(BodyLoads, AreReadWithDirectionCentreAndParts) {
   EXPECT_EQ(loads[4].parts, (std::vector<Index>{1, 2}));
 }
 
+TEST(BodyLoads, HaveTheAxesOfTheirSystem) {
+  const SmallModel m = small_model(ramp + "*DEFINE_COORDINATE_SYSTEM\n23,0,0,0,0,1,0\n-1,0,0\n"
+                                          "*LOAD_BODY_X\n1,2.,,,,,23\n"
+                                          "*LOAD_BODY_VECTOR\n1,-4.,,,,,23\n0.,3.,4.\n");
+  const auto& loads = m.model.body_loads;
+  ASSERT_EQ(loads.size(), 2u) << m.messages;
+  EXPECT_NEAR((loads[0].direction - Vec::UnitY()).norm(), 0, 1e-15);
+  EXPECT_NEAR((loads[1].direction - Vec(-0.6, 0, 0.8)).norm(), 0, 1e-15);
+}
+
 TEST(BodyLoads, MoveWithTheirFile) {
   Diagnostics diagnostics;
   const std::string main = std::string(small_mesh) + ramp +

@@ -299,6 +299,29 @@ TEST(TiedContact, SpringsMakeABarALittleSofter) {
   EXPECT_LT(exact, 0.95);
 }
 
+// Faces that may fail are held by springs of E A/h, with the compliance of an element, without a shorter
+// step.
+TEST(TiedContact, WhatMayFailIsHeldByStiffSprings) {
+  const std::string may_fail = "*MAT_ADD_EROSION\n         1       0.0\n       0.0     1.0E6\n";
+  const Real h = 0.125, k = 3 * (bar_E / 3) / h;
+  Real z = 1;
+  for (int it = 0; it < 1000; ++it) z += 0.1 * (std::atan(2 * k / (bar_E * z)) - z);
+  const Real exact = z / std::acos(0.0);
+  const Real f = axial_frequency(8, 8, tie("SURFACE_TO_SURFACE") + may_fail, z);
+  RecordProperty("frequency", fmt::format("{:.6f} of {:.6f}", f, exact));
+  EXPECT_NEAR(f, exact, 0.005 * exact);
+  EXPECT_GT(exact, 0.93);
+  std::array<Real, 2> steps;
+  for (const bool fails : {false, true}) {
+    SolidDeck deck = bar(8, 8, 0);
+    deck.cards += tie("SURFACE_TO_SURFACE") + (fails ? may_fail : "");
+    auto s = simulation_of(deck.text(1));
+    s->step(do_nothing);
+    steps[fails] = s->clock().dt;
+  }
+  EXPECT_GT(steps[1], 0.9 * steps[0]);
+}
+
 // A rigid plate hangs on a soft block by springs; the faces are the plate's, or the block's.
 TEST(TiedContact, SpringsHoldRigidBodies) {
   for (const char* sides : {"         2         1", "         1         2"}) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/run_error.hpp"
+#include "beam_decks.hpp"
 #include "rigid/bodies/rigid.hpp"
 #include "same_bits.hpp"
 #include "shell_decks.hpp"
@@ -104,6 +105,34 @@ TEST(MassScaling, APlateOfNineTimesItsMassSwingsAThirdAsFast) {
 }
 
 // Weight is that of the material: the block of four times its mass falls with a quarter of the acceleration.
+// The same bar of beams and of trusses; rotary inertia grows with the mass.
+TEST(MassScaling, BeamsOfFourTimesTheirMassSwingHalfAsFast) {
+  for (const char* section :
+       {"         1       1.0         2         0\n       0.1       0.1       0.1       0.1\n",
+        "         2\n      0.018.3333E-068.3333E-061.6667E-05\n", "         3\n      0.01\n"}) {
+    Real alone = 0;
+    for (const auto& [dt2ms, ratio] : {std::pair(0.0, 1.0), {-0.4, 1.0}, {-1.0, 4.0}, {0.25, 0.25}}) {
+      test::beams::BeamDeck deck;
+      deck.line(20, 10, [](int) { return ""; });
+      deck.part(1, section, "*MAT_ELASTIC\n         1       1.0       1.0       0.3\n");
+      deck.velocity(
+          [](int n) -> Vec { return n > 21 ? Vec(0, 0, 0) : Vec(1e-4 * std::cos(pi * (n - 1) / 20), 0, 0); });
+      deck.cards += scaled_to(dt2ms);
+      auto s = simulation_of(deck.text(1e9));
+      start_ledger(*s);
+      EXPECT_NEAR(mass_of_nodes(s->world()), 0.1 * ratio, 1e-9) << section << dt2ms;
+      EXPECT_NEAR(s->world().maxima["added_mass"], 0.1 * (ratio - 1), 1e-9) << section << dt2ms;
+      if (const Field<Real>* inertia = shared_fields::rotary_inertia.find(s->world().nodes.fields)) {
+        if (dt2ms == 0) alone = (*inertia)[3];
+        EXPECT_NEAR((*inertia)[3], ratio * alone, 1e-9 * alone) << section << dt2ms;
+      }
+      EXPECT_NEAR(swing_frequency(*s, 0, 0), 1 / (20 * std::sqrt(ratio)), 2e-4) << section << dt2ms;
+      EXPECT_NEAR(s->clock().dt_old, 0.8 * 0.5 * std::sqrt(ratio), 1e-3) << section << dt2ms;
+      EXPECT_LT(test::energy_error(*s), 0.03) << section << dt2ms;  // of half a step
+    }
+  }
+}
+
 TEST(MassScaling, AddedMassHasNoWeight) {
   SolidDeck deck;
   deck.block(Vec(1, 1, 1), 2, 2, 2, 1);
