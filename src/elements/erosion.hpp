@@ -77,7 +77,7 @@ struct FailingPoints {
 /// What elements of a block push their corners with at the end of a step: corner c in direction k at 3 c + k,
 /// from the first element of the block on. `moment` null: corners do not turn. [ML/T2], [ML2/T2]
 struct CornerPush {
-  static constexpr std::size_t most = 30;
+  static constexpr std::size_t most = 60;
   std::array<const Real*, most> force{}, moment{};
   Real dt = 0;  ///< of the step [T]
   /// What is in `corner_force` and `corner_moment` of a group.
