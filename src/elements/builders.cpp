@@ -122,7 +122,7 @@ void build_elements(const Deck& deck, const Model& model, World& world, Diagnost
                           (solids[k].law && solids[k].formulation->nodal_pressure));
   }
   ElementOptions options{
-      mass_scaling_of(deck), failure_rules(deck, model, that_deform, diagnostics),
+      mass_scaling_of(deck), failure_rules(deck, model, that_deform, world.goes_on, diagnostics),
       stiffness_damping(deck, model, that_deform, by_pressure, diagnostics), has_cross_sections(deck)};
   const auto* extent = deck.last<DatabaseExtentBinary>();
   options.strains = extent && extent->strflg != 0;
