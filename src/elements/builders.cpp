@@ -19,6 +19,7 @@
 #include "elements/node_inertias.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/shell_faces/shell_faces.hpp"
+#include "elements/solid/reference_geometry.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "extension/builders.hpp"
@@ -121,12 +122,14 @@ void build_elements(const Deck& deck, const Model& model, World& world, Diagnost
     by_pressure.push_back(solids[k].pressure != nullptr ||
                           (solids[k].law && solids[k].formulation->nodal_pressure));
   }
-  ElementOptions options{mass_scaling_of(deck), failure_rules(deck, model, that_deform, diagnostics),
-                         stiffness_damping(deck, model, that_deform, by_pressure, diagnostics),
-                         has_cross_sections(deck)};
+  ElementOptions options{
+      mass_scaling_of(deck), failure_rules(deck, model, that_deform, world.goes_on, diagnostics),
+      stiffness_damping(deck, model, that_deform, by_pressure, diagnostics), has_cross_sections(deck)};
   const auto* extent = deck.last<DatabaseExtentBinary>();
   options.strains = extent && extent->strflg != 0;
-  add_solid_passes(model, solids, node_of, options, world);
+  add_solid_passes(model, solids, node_of,
+                   reference_geometry(deck, model, solids, node_of, world, diagnostics), options, world,
+                   diagnostics);
   add_shell_passes(model, shells, node_of, options, world);
   build_beams(model, beams, node_of, world, diagnostics);
   add_beam_passes(model, beams, options, world);

@@ -47,16 +47,17 @@ struct FailureRules {
   bool any() const { return distorted || small_step || of_step() || of_volume() || of_points(); }
 };
 
-/// By part of the model; `laws`: null where a part has no elements that deform. Cards for parts of particles
+/// By part of the model; `laws`: null where a part has no elements that deform; `goes_on`: from a restart
+/// file. Cards for parts of particles
 /// are errors, those without effect warnings.
 std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
-                                        const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                                        const std::vector<std::shared_ptr<StrengthLaw>>& laws, bool goes_on,
                                         Diagnostics& diagnostics);
 
-/// *DEFINE_ELEMENT_DEATH: times at which solids and shells are deleted, into the rules of their parts.
-/// Elements that nothing can take away are errors.
+/// *DEFINE_ELEMENT_DEATH and, of a run that goes on, *DELETE: times at which solids and shells are deleted,
+/// into the rules of their parts. Elements that nothing can take away are errors.
 void take_deaths(const Deck& deck, const Model& model, const std::vector<std::shared_ptr<StrengthLaw>>& laws,
-                 std::vector<FailureRules>& rules, Diagnostics& diagnostics);
+                 bool goes_on, std::vector<FailureRules>& rules, Diagnostics& diagnostics);
 
 /// Whether a *MAT_ADD_EROSION is for this material.
 bool has_erosion_card(const Deck& deck, Id mid);
@@ -77,7 +78,7 @@ struct FailingPoints {
 /// What elements of a block push their corners with at the end of a step: corner c in direction k at 3 c + k,
 /// from the first element of the block on. `moment` null: corners do not turn. [ML/T2], [ML2/T2]
 struct CornerPush {
-  static constexpr std::size_t most = 30;
+  static constexpr std::size_t most = 60;
   std::array<const Real*, most> force{}, moment{};
   Real dt = 0;  ///< of the step [T]
   /// What is in `corner_force` and `corner_moment` of a group.

@@ -106,7 +106,7 @@ bool has_erosion_card(const Deck& deck, Id mid) {
 }
 
 std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
-                                        const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                                        const std::vector<std::shared_ptr<StrengthLaw>>& laws, bool goes_on,
                                         Diagnostics& diagnostics) {
   std::map<Id, const A*> cards;
   for (const A& card : deck.all<A>()) {
@@ -135,7 +135,7 @@ std::vector<FailureRules> failure_rules(const Deck& deck, const Model& model,
     if (model.parts[k].has_beam) continue;
     out[k].small_step = model.parts[k].has_solid ? erode % 10 != 0 : erode / 10 % 10 != 0 && model.dtmin > 0;
   }
-  take_deaths(deck, model, laws, out, diagnostics);
+  take_deaths(deck, model, laws, goes_on, out, diagnostics);
   return out;
 }
 

@@ -101,6 +101,7 @@ class DeletedElements : public Reduction, public TimeLimit, public FailureReport
   const std::vector<ElementFailure>& failures() const override { return failures_; }
 
   void keep(Archive& archive) override {
+    if (archive.loading() && !archive.has("first_step")) return;  // nothing could fail so far
     archive("first_step", first_step_), archive("longest_step", longest_);
   }
   void loaded(World&) override {

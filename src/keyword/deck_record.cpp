@@ -82,12 +82,17 @@ std::string shown(const std::string& value) {
   return "'" + (value.size() > most_shown ? value.substr(0, most_shown) + "..." : value) + "'";
 }
 
+/// Keywords of what happens when a run goes on.
+bool acts_at_restart(const std::string& name) {
+  return name.starts_with("CHANGE_") || name.starts_with("DELETE_");
+}
+
 /// Keywords that may change between the parts of a run whatever their fields say.
 bool may_change(const KeywordSpec& spec) {
   const std::string& name = spec.names.front();
-  return is_output_request(name) || name == "CONTROL_TERMINATION" || name == "CONTROL_CPU" ||
-         name == "COURANT_OUTPUT" || name == "COURANT_D3PLOT" || name == "COURANT_PROGRAM_FORCES" ||
-         name.rfind("DEFINE_CURVE", 0) == 0;
+  return is_output_request(name) || acts_at_restart(name) || name == "CONTROL_TERMINATION" ||
+         name == "CONTROL_CPU" || name == "COURANT_OUTPUT" || name == "COURANT_D3PLOT" ||
+         name == "COURANT_PROGRAM_FORCES" || name.rfind("DEFINE_CURVE", 0) == 0;
 }
 
 constexpr const char* step_keyword = "CONTROL_TIMESTEP";

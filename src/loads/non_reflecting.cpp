@@ -140,15 +140,18 @@ class NonReflectingReader {
     }
     return true;
   }
-  /// Of the area of a face: equal ones, or as four triangles where it has nodes on its edges.
+  /// Of the area of a face: equal ones, or as four triangles, of quadrilaterals around a fifth face, where it
+  /// has nodes on its edges.
   std::map<Index, Real> shares_of(const std::set<Index>& corners) const {
-    std::map<Index, Real> out, of_four;
+    const bool triangle = corners.size() == 3;
+    std::map<Index, Real> out, with_edges;
     for (const Index a : corners) {
-      out[a] = 1 / static_cast<Real>(corners.size()), of_four[a] = 1.0 / 12;
+      out[a] = 1 / static_cast<Real>(corners.size()), with_edges[a] = triangle ? 1.0 / 12 : 1.0 / 24;
       for (const Index b : corners)
-        if (const auto found = on_edge_.find({a, b}); found != on_edge_.end()) of_four[found->second] = 0.25;
+        if (const auto found = on_edge_.find({a, b}); found != on_edge_.end())
+          with_edges[found->second] = triangle ? 1.0 / 4 : 5.0 / 24;
     }
-    return corners.size() == 3 && of_four.size() == 6 ? of_four : out;
+    return with_edges.size() == 2 * corners.size() ? with_edges : out;
   }
 
   /// Of the one solid that has this face; nothing: there is none, or the face lies between two.

@@ -35,7 +35,8 @@ const RegisterKeyword<LoadShell> load_shell_keyword{load_shell_element_table()};
 /// A pressure and where it acts: corners as nodes of the world, of a triangle the third again.
 struct PressureFace {
   std::array<Index, 4> node{};
-  std::array<Index, 3> on_edge{-1, -1, -1};  ///< of faces of tetrahedra of ten nodes: 12, 23, 31; -1: none
+  /// Nodes on the edges, where all have one: behind each corner; -1: none.
+  std::array<Index, 4> on_edge{-1, -1, -1, -1};
   std::size_t load = 0;
   Index blast = -1;  ///< among the waves; -1: the load presses
   int corners() const { return node[2] == node[3] ? 3 : 4; }
@@ -72,6 +73,34 @@ Vec area_of_node(const std::array<Vec, 6>& x, std::size_t node) {
     const Real N = node < 3 ? L[node] * (2 * L[node] - 1) : 4 * L[node - 3] * L[(node - 2) % 3];
     out += 0.5 * weight[kind] * N * (slope[1] - slope[0]).cross(slope[2] - slope[0]);
   }
+  return out;
+}
+
+/// The same of a face of eight nodes, corners first: 3 x 3 points of Gauss, which are exact.
+Vec area_of_node(const std::array<Vec, 8>& x, std::size_t node) {
+  constexpr Real at[3]{-0.774596669241483377, 0, 0.774596669241483377}, weight[3]{5.0 / 9, 8.0 / 9, 5.0 / 9};
+  constexpr Real xi_of[8]{-1, 1, 1, -1, 0, 1, 0, -1}, eta_of[8]{-1, -1, 1, 1, -1, 0, 1, 0};
+  Vec out = Vec::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const Real xi = at[i], eta = at[j];
+      Vec by_xi = Vec::Zero(), by_eta = Vec::Zero();
+      Real of_node = 0;
+      for (std::size_t c = 0; c < x.size(); ++c) {
+        const Real a = xi_of[c], b = eta_of[c], A = 1 + a * xi, B = 1 + b * eta;
+        Real N, dxi, deta;
+        if (c < 4)
+          N = A * B * (a * xi + b * eta - 1) / 4, dxi = a * B * (2 * a * xi + b * eta) / 4,
+          deta = b * A * (2 * b * eta + a * xi) / 4;
+        else if (a == 0)
+          N = (1 - xi * xi) * B / 2, dxi = -xi * B, deta = b * (1 - xi * xi) / 2;
+        else
+          N = (1 - eta * eta) * A / 2, dxi = a * (1 - eta * eta) / 2, deta = -eta * A;
+        by_xi += dxi * x[c], by_eta += deta * x[c];
+        if (c == node) of_node = N;
+      }
+      out += weight[i] * weight[j] * of_node * by_xi.cross(by_eta);
+    }
   return out;
 }
 
@@ -137,15 +166,19 @@ class SegmentPressure : public Force, public EnergyTerm {
       const Vec area = f.corners() == 3 ? Vec((x(1) - x(0)).cross(x(2) - x(0)) / 2)
                                         : Vec((x(2) - x(0)).cross(x(3) - x(1)) / 2);
       const Real p = f.blast < 0 ? pressure_[f.load] : blast_on(f, area);
-      out -= f.on_edge[0] < 0 ? Vec(p / f.corners() * area) : Vec(p * of_six(f, n));
+      out -= f.on_edge[0] < 0   ? Vec(p / f.corners() * area)
+             : f.corners() == 3 ? Vec(p * of_all<6>(f, n))
+                                : Vec(p * of_all<8>(f, n));
     }
     return out;
   }
-  Vec of_six(const PressureFace& f, Index n) const {
-    std::array<Vec, 6> x;
+  /// Of a face with nodes on its edges.
+  template <std::size_t count>
+  Vec of_all(const PressureFace& f, Index n) const {
+    std::array<Vec, count> x;
     std::size_t at = 0;
-    for (std::size_t c = 0; c < x.size(); ++c) {
-      const Index node = c < 3 ? f.node[c] : f.on_edge[c - 3];
+    for (std::size_t c = 0; c < count; ++c) {
+      const Index node = c < count / 2 ? f.node[c] : f.on_edge[c - count / 2];
       x[c] = nodes_->x.vec(node);
       if (node == n) at = c;
     }
@@ -318,11 +351,13 @@ class PressureReader {
                   "give it three different nodes");
       return false;
     }
-    for (std::size_t c = 0; face.corners() == 3 && c < 3; ++c)
-      if (const auto found = on_edge_.find(std::minmax({face.node[c], face.node[(c + 1) % 3]}));
+    const auto corners = static_cast<std::size_t>(face.corners());
+    for (std::size_t c = 0; c < corners; ++c)
+      if (const auto found = on_edge_.find(std::minmax({face.node[c], face.node[(c + 1) % corners]}));
           found != on_edge_.end())
         face.on_edge[c] = found->second;
-    if (std::count(face.on_edge.begin(), face.on_edge.end(), Index(-1)) > 0) face.on_edge.fill(-1);
+    if (std::count(face.on_edge.begin(), face.on_edge.begin() + face.corners(), Index(-1)) > 0)
+      face.on_edge.fill(-1);
     faces.push_back(face);
     return true;
   }

@@ -72,6 +72,7 @@ Model ModelBuilder::build() {
   build_body_loads();
   build_constraints();
   build_velocities();
+  finish_edge_nodes();
   warn_of_short_curves();
   if (errors_ > max_errors)
     diagnostics_.note({deck_.files.empty() ? "" : deck_.files[0].name, 0, 0},

@@ -22,7 +22,8 @@ namespace {
 /// The different ones of a solid's corners, in the order in which they come first; how many there are.
 int collect_corners(const ModelSolid& solid, std::array<Index, 8>& out) {
   auto end = out.begin();
-  for (auto n = solid.node.begin(); n != solid.node.begin() + (solid.has_nodes_on_edges() ? 4 : 8); ++n)
+  for (auto n = solid.node.begin();
+       n != solid.node.begin() + (solid.has_nodes_on_edges() ? solid.first_on_edge() : 8); ++n)
     if (*n >= 0 && std::find(out.begin(), end, *n) == end) *end++ = *n;
   return static_cast<int>(end - out.begin());
 }
@@ -37,9 +38,15 @@ std::array<Index, 8> ModelSolid::corners() const {
   return {a, b, c, c, d, d, d, d};
 }
 
-std::array<Index, 10> ModelSolid::all_corners() const {
+std::span<const SolidEdge> ModelSolid::edges_with_nodes() const {
+  if (!has_nodes_on_edges()) return {};
+  if (is_hexahedron_of_twenty()) return edges_of_hexahedron;
+  return edges_of_tetrahedron;
+}
+
+std::array<Index, 20> ModelSolid::all_corners() const {
   if (has_nodes_on_edges()) return node;
-  std::array<Index, 10> out{};
+  std::array<Index, 20> out{};
   out.fill(-1);
   const std::array<Index, 8> own = corners();
   std::copy(own.begin(), own.end(), out.begin());
@@ -49,10 +56,11 @@ std::array<Index, 10> ModelSolid::all_corners() const {
 std::map<std::array<Index, 2>, Index> nodes_on_edges(const std::vector<ModelSolid>& solids) {
   std::map<std::array<Index, 2>, Index> out;
   for (const ModelSolid& solid : solids)
-    for (std::size_t k = 0; solid.has_nodes_on_edges() && k < std::size(edges_of_tetrahedron); ++k) {
-      const auto& [from, to] = edges_of_tetrahedron[k];
-      const auto [a, b] = std::minmax(solid.node[from], solid.node[to]);
-      out[{a, b}] = solid.node[4 + k];
+    for (std::size_t k = 0; k < solid.edges_with_nodes().size(); ++k) {
+      const auto& [from, to] = solid.edges_with_nodes()[k];
+      const auto [a, b] =
+          std::minmax(solid.node[static_cast<std::size_t>(from)], solid.node[static_cast<std::size_t>(to)]);
+      out[{a, b}] = solid.node[solid.first_on_edge() + k];
     }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "base/diagnostic.hpp"
 #include "base/real.hpp"
 #include "keyword/card.hpp"
+#include "model/mesh/solid_edges.hpp"
 
 namespace courant {
 
@@ -68,23 +70,31 @@ struct ModelShell {
 
 /// A hexahedron: nodes 1 to 4 run around the lower face, counter-clockwise seen from the upper one, 5 to 8
 /// are above them; or what becomes of it where nodes stand several times: pentahedra, pyramids, tetrahedra.
-/// Or a tetrahedron with nodes 5 to 10 on its edges: of 1 and 2, 2 and 3, 3 and 1, 1 and 4, 2 and 4, 3 and 4.
+/// Or a tetrahedron with nodes 5 to 10, or a hexahedron with nodes 9 to 20 on its edges, in the order of
+/// model/mesh/solid_edges.hpp.
 struct ModelSolid {
   Id id = 0;
   Index part = 0;
-  std::array<Index, 10> node{};  ///< in the deck's order; -1 behind the last
+  std::array<Index, 20> node{};  ///< -1 behind the last
 
   /// As corners of a hexahedron. Of a tetrahedron with nodes a, b, c, d, however often it repeats which of
   /// them: a b c c d d d d, since other repetitions leave a warped face.
   std::array<Index, 8> corners() const;
   bool has_nodes_on_edges() const { return node[9] >= 0; }
-  /// Ten with nodes on edges; else corners(), and -1 behind them.
-  std::array<Index, 10> all_corners() const;
+  bool is_hexahedron_of_twenty() const { return node[19] >= 0; }
+  /// With nodes on edges: 4 or 8 corners, behind which these are.
+  std::size_t first_on_edge() const { return is_hexahedron_of_twenty() ? 8 : 4; }
+  /// Edges with a node on them, by their corners: number k has node[first_on_edge() + k].
+  std::span<const SolidEdge> edges_with_nodes() const;
+  /// Ten or twenty with nodes on edges; else corners(), and -1 behind them.
+  std::array<Index, 20> all_corners() const;
+  /// How many of these count: 8, 10 or 20.
+  int corner_count() const { return !has_nodes_on_edges() ? 8 : is_hexahedron_of_twenty() ? 20 : 10; }
   /// Different nodes among these: 8 of a hexahedron, 6 of a pentahedron, 5 of a pyramid, 4 of a tetrahedron.
   int different_corners() const;
-  int different_nodes() const { return has_nodes_on_edges() ? 10 : different_corners(); }
+  int different_nodes() const { return has_nodes_on_edges() ? corner_count() : different_corners(); }
 };
-/// Nodes on the edges of tetrahedra of ten nodes, by the ends of the edge, the lower index first.
+/// Nodes on the edges of solids, by the ends of the edge, the lower index first.
 std::map<std::array<Index, 2>, Index> nodes_on_edges(const std::vector<ModelSolid>& solids);
 
 struct ModelBeam {

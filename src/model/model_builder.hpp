@@ -1,6 +1,7 @@
 #pragma once
 // The steps of build_model, over several files: mesh, sets, conditions.
 #include <array>
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -47,6 +48,13 @@ class ModelBuilder {
   void warn_of_loose_edges();
   Real least_volume(const ModelSolid& solid) const;
   Real volume(const ModelSolid& solid) const;
+  // edge_nodes.cpp
+  void order_edge_nodes(ModelSolid& solid) const;
+  static bool wants_edge_nodes(const ElementSolidCard& card);
+  bool make_edge_nodes(const ElementSolidCard& card, ModelSolid& solid);
+  void position_edge_nodes();
+  void finish_edge_nodes();
+  Real least_volume_of_twenty(const ModelSolid& solid) const;
   void check_control_solid(const ControlSolid& card);
   // build_histories.cpp
   void build_histories();
@@ -139,6 +147,9 @@ class ModelBuilder {
   Model model_;
   IdIndex node_of_id_;
   std::vector<const ElementSolidCard*> solid_cards_;  ///< of model_.solids
+  std::map<std::array<Index, 2>, Index>
+      made_;  ///< nodes that the deck does not have, by the ends of their edge
+  const ElementSolidCard* first_made_ = nullptr;
   std::unordered_map<Id, const ElementShellCard*> shell_cards_;
   int errors_ = 0;
 };

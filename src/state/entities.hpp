@@ -141,10 +141,10 @@ struct ElementGroup {
   Field<Index>* segment = nullptr;  ///< shells: index into World::segments of each; null: solids
   int corners() const { return node.info().components; }
   Index size() const { return fields.size(); }
-  /// Of solids: the corners of a hexahedron, or of a shape reduced to one (pentahedra of 6 corners,
-  /// tetrahedra of 4 or 10), with the same ends of edges.
+  /// Of solids: the corners of a hexahedron (8 or 20 corners), or of a shape reduced to one (pentahedra of 6
+  /// corners, tetrahedra of 4 or 10), with the same ends of edges.
   std::array<int, 8> hexahedron() const {
-    if (corners() == 8) return {0, 1, 2, 3, 4, 5, 6, 7};
+    if (corners() == 8 || corners() == 20) return {0, 1, 2, 3, 4, 5, 6, 7};
     if (corners() == 6) return {0, 1, 2, 3, 4, 4, 5, 5};
     return {0, 1, 2, 2, 3, 3, 3, 3};
   }

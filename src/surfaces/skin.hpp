@@ -15,13 +15,15 @@ struct SkinStiffness {
 };
 
 /// A hexahedron, or what becomes of it where nodes stand several times; or a tetrahedron with nodes on its
-/// edges, each face of which is four triangles.
+/// edges, each face of which is four triangles, or a
+/// hexahedron with nodes on its edges, each face of which is four triangles around a quadrilateral.
 struct SkinCell {
   Id id = 0;
-  int corners = 8;               ///< or 10
-  std::array<Index, 10> node{};  ///< of the world, in LS-DYNA's order
+  int corners = 8;               ///< or 10, 20
+  std::array<Index, 20> node{};  ///< of the world, in LS-DYNA's order
   Real volume = 0;               ///< [L3]
-  /// Hexahedra (collapsed ones) that fill it: itself, or the eight tetrahedra between nodes of ten.
+  /// Hexahedra (collapsed ones) that fill it: itself, the eight tetrahedra between nodes of ten, or
+  /// tetrahedra and pyramids between those of twenty.
   std::vector<std::array<Index, 8>> pieces() const;
 };
 

@@ -15,6 +15,9 @@ namespace {
 using Edge = SolidEdge;
 constexpr Edge of_tetrahedron10[] = {{0, 4}, {4, 1}, {1, 5}, {5, 2}, {2, 6}, {6, 0},
                                      {0, 7}, {7, 3}, {1, 8}, {8, 3}, {2, 9}, {9, 3}};
+constexpr Edge of_hexahedron20[] = {{0, 8},  {8, 1},  {1, 9},  {9, 2},  {2, 10}, {10, 3}, {3, 11}, {11, 0},
+                                    {4, 12}, {12, 5}, {5, 13}, {13, 6}, {6, 14}, {14, 7}, {7, 15}, {15, 4},
+                                    {0, 16}, {16, 4}, {1, 17}, {17, 5}, {2, 18}, {18, 6}, {3, 19}, {19, 7}};
 constexpr Edge of_quadrilateral[] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
 constexpr Edge of_triangle[] = {{0, 1}, {1, 2}, {2, 0}};
 constexpr Edge of_line[] = {{0, 1}};
@@ -22,6 +25,7 @@ constexpr Edge of_line[] = {{0, 1}};
 /// By corners of the group, of solids without nodes on edges by those of ElementGroup::hexahedron.
 std::span<const Edge> edges_of(const ElementGroup& group) {
   if (group.corners() == 10) return of_tetrahedron10;
+  if (group.corners() == 20) return of_hexahedron20;
   if (group.corners() == 2) return of_line;
   if (!group.segment) return edges_of_hexahedron;
   if (group.corners() == 4) return of_quadrilateral;

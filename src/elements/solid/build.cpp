@@ -131,10 +131,10 @@ SolidControl control_of(const SolidPart& part) {
 
 namespace {
 
-/// Nodes at the corners of a group: ten, those of a hexahedron, or of these the different ones of pentahedra
-/// and tetrahedra.
-std::array<Index, 10> corners_of(const ModelSolid& solid, int corners) {
-  const std::array<Index, 10> all = solid.all_corners();
+/// Nodes at the corners of a group: ten or twenty, those of a hexahedron, or of these the different ones of
+/// pentahedra and tetrahedra.
+std::array<Index, 20> corners_of(const ModelSolid& solid, int corners) {
+  const std::array<Index, 20> all = solid.all_corners();
   if (corners == 4) return {all[0], all[1], all[2], all[4]};
   if (corners == 6) return {all[0], all[1], all[2], all[3], all[4], all[6]};
   return all;
@@ -158,7 +158,7 @@ void build_solids(const Model& model, const std::vector<SolidPart>& parts, const
     for (Index e = 0; e < group.size(); ++e) {
       const ModelSolid& solid = *of_part[k][e];
       group.id[e] = solid.id;
-      const std::array<Index, 10> corner = corners_of(solid, corners);
+      const std::array<Index, 20> corner = corners_of(solid, corners);
       group.repeats_nodes = group.repeats_nodes || solid.different_nodes() < corners;
       for (int c = 0; c < corners; ++c)
         group.node.data(c)[e] = node_of[static_cast<std::size_t>(corner[static_cast<std::size_t>(c)])];

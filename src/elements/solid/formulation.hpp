@@ -20,7 +20,7 @@ struct Elform {
 struct SolidFormulation {
   Elform elforms[4]{};  ///< 0 behind the last
   /// Of a group: 8 in LS-DYNA's order, of which nodes may repeat; 4 of tetrahedra, 6 of pentahedra (N1 to N4,
-  /// N5, N7); 10 of tetrahedra with nodes on their edges.
+  /// N5, N7); 10 and 20 of tetrahedra and hexahedra with nodes on their edges.
   int corners = 8;
   int points = 1;  ///< at most PointLoops::most_points
   /// Of the two the one that goes with `points`, for the machine the program runs on.

@@ -31,11 +31,6 @@ COURANT_INLINE void slopes(const Triple a[7], const GaussPoint& g, Triple out[3]
   out[1] = a[1] + (g.zeta * a[3] + (g.xi * a[5] + g.zeta_xi * a[6]));
   out[2] = a[2] + (g.eta * a[3] + (g.xi * a[4] + g.xi_eta * a[6]));
 }
-/// det J times the gradients of xi, eta, zeta, all times 64; returns 512 det J.
-COURANT_INLINE Native cofactors(const Triple r[3], Triple out[3]) {
-  out[0] = cross(r[1], r[2]), out[1] = cross(r[2], r[0]), out[2] = cross(r[0], r[1]);
-  return dot(r[0], out[0]);
-}
 
 COURANT_INLINE void gather_of(Index first, Index n, Index k, const SolidMesh& mesh, const SolidState& state,
                               PointScratch& scratch) {
@@ -86,9 +81,9 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, const Gaus
     a[m] = triple(scratch.position + 3 * m, k) + back * w[m];
   }
   slopes(a, at, r), slopes(w, at, u);
-  const Native det = cofactors(r, C);
+  const Native det = cofactors(r, C);  // 512 det J, as r is 8 times the derivatives
   store(scratch.weight + k, 0.001953125 * det);
-  strain_point(first, n, k, dt, u, C, det, 1, state, scratch);
+  strain_point(first, n, k, dt, u, C, det, load(scratch.mean_trace + k), 1, state, scratch);
 }
 
 /// Forces -sum_I s grad N_I of a point on the modes of the corners, N_I = sum_k H_Ik phi_k/8 with phi = xi,

@@ -38,11 +38,12 @@ void check_shapes(const Deck& deck, const Model& model, Index part, const S& s, 
                                     elform->shape, solid.id, id),
                         "1 takes all shapes without nodes on edges");
     if (elform->nodes == 0 && solid.has_nodes_on_edges())
-      return deck.error(
-          diagnostics, s, "ELFORM",
-          fmt::format("{} is no formulation of tetrahedra of ten nodes, as is solid {} of part {}", s.elform,
-                      solid.id, id),
-          "16 is one");
+      return deck.error(diagnostics, s, "ELFORM",
+                        fmt::format("{} is no formulation of {}, as is solid {} of part {}", s.elform,
+                                    solid.is_hexahedron_of_twenty() ? "hexahedra of twenty nodes"
+                                                                    : "tetrahedra of ten nodes",
+                                    solid.id, id),
+                        solid.is_hexahedron_of_twenty() ? "23 is one" : "16 is one");
   }
   if (*elform->warning != 0)
     deck.warning(diagnostics, s, "ELFORM", fmt::format(fmt::runtime(elform->warning), id, s.elform),

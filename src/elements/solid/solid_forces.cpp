@@ -11,8 +11,10 @@
 #include "elements/solid/full_points.hpp"
 #include "elements/solid/mode_watch.hpp"
 #include "elements/solid/nodal_pressure.hpp"
+#include "elements/solid/reference_geometry.hpp"
 #include "elements/solid/solid_axes.hpp"
 #include "elements/solid/solid_faults.hpp"
+#include "elements/solid/solid_reports.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
 #include "state/reports.hpp"
@@ -23,31 +25,16 @@ namespace {
 
 /// Solids of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity, and the
 /// forces on the corners, which a pass over the nodes gathers. Formulae: in the files of the formulations.
-class SolidForces : public Material,
-                    public TimeLimit,
-                    public EnergyTerm,
-                    public PartReporter,
-                    public ElementReporter,
-                    public FieldFiller {
+class SolidForces : public Material, public TimeLimit, public SolidReports {
  public:
   SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac,
-              ElementOptions& options, const std::vector<std::array<bool, 3>>& held, World& world)
-      : group_(group),
-        material_(part),
-        law_(part.law),
+              const ReferenceGeometry& reference, ElementOptions& options,
+              const std::vector<std::array<bool, 3>>& held, World& world)
+      : SolidReports(part, group),
         part_id_(part_id),
         tssfac_(tssfac),
-        stress_(group.fields.add<Real>({.name = "stress",
-                                        .dimension = "M/LT2",
-                                        .components = 6,
-                                        .output = true,
-                                        .restart = part.formulation->points == 1})),
         V0_(group.V0),
         rho0_(group.fields.add<Real>({.name = "reference_density", .dimension = "M/L3"})),
-        internal_(group.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
-        hourglass_(
-            group.fields.add<Real>({.name = "hourglass_energy", .dimension = "ML2/T2", .output = true})),
-        bulk_viscosity_(group.fields.add<Real>({.name = "bulk_viscosity_energy", .dimension = "ML2/T2"})),
         viscous_(group.fields.add<Real>({.name = "bulk_viscosity_pressure", .dimension = "M/LT2"})) {
     control_ = control_of(part);
     const bool several = part.formulation->points > 1;
@@ -64,7 +51,8 @@ class SolidForces : public Material,
     if (control_.QM > 0 && !full_)
       hourglass_force_ =
           &group.fields.add<Real>({.name = "hourglass_force", .dimension = "ML/T2", .components = 12});
-    const std::vector<Real> wave_time = start_state(world);
+    const bool strained = reference.of_part(group.part);
+    const std::vector<Real> wave_time = start_state(strained ? &reference : nullptr, world);
     if (options.scaling.step > 0) {
       scaled_ = std::make_unique<ScaledMass>(options.scaling, group_, nullptr, world);
       scaled_->start(wave_time, world);
@@ -80,7 +68,9 @@ class SolidForces : public Material,
     if (const FailureRules& rules = options.failure[static_cast<std::size_t>(group.part)]; rules.any())
       options.eroding.push_back(erosion_ = make_erosion(rules, world));
     if (options.strains) keep_strains();
+    if (strained) strain_from(reference, world);
   }
+  Index inside_out() const { return inside_out_; }
   std::string name() const override { return group_.fields.name(); }
   const FieldSet& over(const World&) const override { return group_.fields; }
   void declare(const World& world, Accesses& a) const override {
@@ -166,60 +156,6 @@ class SolidForces : public Material,
       if (!std::isnan(least->step) && !(found.step >= least->step)) least = &found;
     return {tssfac_ * least->step, fmt::format("solid {} of part {}{}", group_.id[least->shortest], part_id_,
                                                by_mesh_ ? " (frequency of its mesh)" : "")};
-  }
-
-  ElementKind kind() const override { return ElementKind::solid; }
-  const ElementGroup& reported() const override { return group_; }
-  Real cut_measure(Index) const override { return 1; }
-  ElementReport report_element(const World&, Index e, const ElementReportOptions& options) const override {
-    ElementReport out{.deleted = erosion_ && erosion_->dead(e)};
-    if (full_) {
-      out.points = full_->report(e, options.all_points, strains_.get());
-    } else {
-      PointReport& point = out.points.emplace_back();
-      for (int k = 0; k < 6; ++k) point.stress[static_cast<std::size_t>(k)] = stress_.data(k)[e];
-      for (const Field<Real>* h : history_)
-        for (int k = 0; k < h->info().components; ++k) point.history.push_back(h->data(k)[e]);
-      if (strains_) point.strain = strains_->at(0, e);
-    }
-    if (const int plastic = plastic_strain_of(*law_); plastic >= 0)
-      for (PointReport& point : out.points) point.plastic = point.history[static_cast<std::size_t>(plastic)];
-    return out;
-  }
-  void fill_fields(World&) override {
-    if (full_) full_->average(stress_, history_);
-  }
-  void record(World&, const Clock&, EnergyLedger&) override {}
-  void sample(const World&, const Clock&, EnergyLedger& ledger) const override {
-    ledger.internal += total(internal_), ledger.bulk_viscosity += total(bulk_viscosity_);
-    ledger.hourglass += total(hourglass_), ledger.assumed_bending += assumed_bending();
-  }
-  /// Hourglass energy that is of bending: of elements that have not flowed, by forces as the material's.
-  Real assumed_bending() const {
-    if (control_.hourglass != 6 || control_.QM != 1) return 0;
-    const int flow = plastic_strain_of(*law_);
-    const Field<Real>* plastic = flow < 0 ? nullptr : history_[static_cast<std::size_t>(flow)];
-    const auto at = [&](Index e) { return plastic && (*plastic)[e] > 0 ? 0 : hourglass_[e]; };
-    return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : at(e); });
-  }
-  void report_part(const World& world, std::vector<PartSums>& parts) const override {
-    PartSums& out = parts[static_cast<std::size_t>(group_.part)];
-    out.internal += total(internal_) + total(bulk_viscosity_);
-    out.hourglass += total(hourglass_);
-    if (erosion_) {
-      out.eroded_internal += total_of_dead(internal_) + total_of_dead(bulk_viscosity_);
-      out.eroded_hourglass += total_of_dead(hourglass_);
-    }
-    for (Index e = 0; e < group_.size(); ++e) {
-      out.mass += group_.mass[e];
-      if (scaled_) out.added_mass += scaled_->added(e);
-      for (int c = 0; c < group_.corners(); ++c) {
-        const Real share = scaled_ ? scaled_->of_corner(e, c) : group_.mass[e] * group_.share(e, c);
-        const Vec v = world.nodes.v.vec(group_.node.data(c)[e]);
-        out.momentum += share * v;
-        out.kinetic += 0.5 * share * v.squaredNorm();
-      }
-    }
   }
 
  private:
@@ -332,6 +268,21 @@ class SolidForces : public Material,
                     .by_law = number(fails_)});
   }
 
+  /// Stress, history and energy of the motion from a reference geometry to the start.
+  void strain_from(const ReferenceGeometry& reference, World& world) {
+    start(world, {});
+    const SolidControl slow = control_.without_viscosity();
+    reference.go_to(world, mesh_, [&](const SolidMesh& mesh, Real dt) {
+      for_each_block(group_.size(), [&](Index begin, Index end) {
+        PointScratch scratch;
+        found_[static_cast<std::size_t>(begin / block_size)] =
+            advance({{mesh, slow, state_, *law_}, nullptr, nullptr}, dt, begin, end, scratch);
+      });
+      for (const StableStep& found : found_)
+        if (inside_out_ < 0 && !(found.least_volume > 0)) inside_out_ = found.smallest;
+    });
+  }
+
   /// A free block of few elements is stable only below what a mesh of many is: the step keeps below 2 over
   /// the largest frequency of the group, by the share of the elements' own step that this is at the start.
   /// Means of pressures over nodes only make a mesh softer: it is that of the elements without.
@@ -343,9 +294,7 @@ class SolidForces : public Material,
     SolidMesh mesh;
     for (std::size_t k = 0; k < 3; ++k) mesh.x[k] = own.x[k].data();
     for (std::size_t c = 0; c < own.corner.size(); ++c) mesh.corner[c] = own.corner[c].data();
-    SolidControl elastic = control_;
-    elastic.Q1 = elastic.Q2 = elastic.MU = 0;
-    if (!elastic.stiff()) elastic.QM = 0;
+    const SolidControl elastic = control_.without_viscosity();
     std::vector<StableStep> found(found_.size());
     // an equation of state answers a change of volume, which nothing moves for here
     const std::shared_ptr<StrengthLaw> linear =
@@ -415,7 +364,7 @@ class SolidForces : public Material,
 
   /// Reference volumes and densities; the mass of an element goes to its nodes in equal shares. Returns the
   /// step of each element. [T]
-  std::vector<Real> start_state(World& world) {
+  std::vector<Real> start_state(const ReferenceGeometry* reference, World& world) {
     int numbers = 0, tensors = 0;
     for (const HistoryVariable& h : law_->history()) numbers += h.components, tensors += h.is_tensor();
     if (numbers > static_cast<int>(most_history) || tensors > SolidState::most_tensors)
@@ -425,6 +374,7 @@ class SolidForces : public Material,
     std::vector<Real> wave_time(static_cast<std::size_t>(n));
     for (Index e = 0; e < n; ++e) V0_[e] = 1, rho0_[e] = law_->ro;
     start(world, {});
+    for (std::size_t k = 0; reference && k < 3; ++k) mesh_.x[k] = reference->x[k].data();
     for (Index begin = 0; begin < n; begin += block_size) {
       PointScratch scratch;
       const ElementBlock block{begin, std::min<Index>(block_size, n - begin), 0};
@@ -438,6 +388,7 @@ class SolidForces : public Material,
       for (Index k = 0; k < block.count; ++k) {
         const Index e = begin + k;
         V0_[e] = scratch.relative_volume[k] / material_.relative_volume();
+        if (reference && inside_out_ < 0 && !(V0_[e] > 0)) inside_out_ = e;
         wave_time[static_cast<std::size_t>(e)] = scratch.wave_time[k];
         group_.mass[e] = law_->ro * V0_[e];
         for (int c = 0; c < group_.corners(); ++c)
@@ -447,52 +398,40 @@ class SolidForces : public Material,
     reset();
     return wave_time;
   }
-  Real total(const Field<Real>& field) const {
-    return sum(group_.size(), [&](Index e) { return erosion_ && erosion_->dead(e) ? 0 : field[e]; });
-  }
   Real* memory() const { return memory_ ? memory_->data() : nullptr; }
-  Real total_of_dead(const Field<Real>& field) const {
-    return sum(group_.size(), [&](Index e) { return erosion_->dead(e) ? field[e] : 0; });
-  }
-
-  const ElementGroup& group_;
-  SolidPart material_;
-  std::shared_ptr<StrengthLaw> law_;
   Id part_id_;
-  Real tssfac_;            ///< TSSFAC, or less where the mesh asks for it
-  bool by_mesh_ = false;   ///< it does
-  OnePointLoops loops_{};  ///< where elements have one point
-  SolidControl control_;
-  Field<Real>&stress_, &V0_, &rho0_, &internal_, &hourglass_, &bulk_viscosity_;
-  Field<Real>& viscous_;                    ///< q of bulk viscosity
+  Real tssfac_;                             ///< TSSFAC, or less where the mesh asks for it
+  bool by_mesh_ = false;                    ///< it does
+  OnePointLoops loops_{};                   ///< where elements have one point
+  Field<Real>&V0_, &rho0_, &viscous_;       ///< the last one q of bulk viscosity
   Field<Real>* hourglass_force_ = nullptr;  ///< null: several points, or QM 0
   Field<Real>* memory_ = nullptr;           ///< of the equation of state; null: it has none
-  std::vector<Field<Real>*> history_;
   SolidMesh mesh_{};
   SolidState state_{};
   std::vector<Real*> history_data_;
   std::vector<StableStep> found_;  ///< in each block
   std::vector<SolidPressure::Faults> of_pressure_;
-  std::unique_ptr<FullPoints> full_;           ///< null: elements have one point
   std::shared_ptr<NodalPressure> nodal_;       ///< null: pressures are those of elements
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
-  std::unique_ptr<ScaledMass> scaled_;         ///< null: no mass scaling
-  std::shared_ptr<Erosion> erosion_;           ///< null: nothing fails
-  std::unique_ptr<PointStrains> strains_;      ///< null: not requested
   /// Of the law's numbers the plastic strain, and what it fails by.
   int plastic_ = -1, fails_ = -1;
+  Index inside_out_ = -1;  ///< an element that is so in the reference geometry; -1: none
 };
 
 }  // namespace
 
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
-                      const std::vector<Index>& node_of, ElementOptions& options, World& world) {
+                      const std::vector<Index>& node_of, const ReferenceGeometry& reference,
+                      ElementOptions& options, World& world, Diagnostics& diagnostics) {
   const std::vector<std::array<bool, 3>> held = held_at_start(model, node_of, world.nodes);
   for (const auto& group : world.groups) {
     const auto part = static_cast<std::size_t>(group->part);
     if (group->segment) continue;  // shells
-    world.passes.add(std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac,
-                                                   options, held, world));
+    auto pass = std::make_shared<SolidForces>(parts[part], *group, model.parts[part].id, model.tssfac,
+                                              reference, options, held, world);
+    if (pass->inside_out() >= 0)
+      report_inside_out(model.parts[part], group->id[pass->inside_out()], diagnostics);
+    world.passes.add(std::move(pass));
   }
   if (auto watch = make_mode_watch(parts, world)) world.passes.add(std::move(watch));
 }

@@ -9,7 +9,7 @@ namespace courant {
 /// Corners of the elements of a group, and their nodes.
 struct SolidMesh {
   const Real *x[3], *v[3];  ///< of nodes: position at the end of the step [L], velocity through it [L/T]
-  static constexpr int most_corners = 10;
+  static constexpr int most_corners = 20;
   const Index* corner[most_corners];  ///< by element: its nodes in LS-DYNA's order
 };
 
@@ -46,13 +46,19 @@ struct SolidControl {
   /// Of the deviation of tr D at a point from its mean over the element, what the law sees, in formulations
   /// whose strains vary enough for bodies that keep their volume to lock. [-]
   Real dilatation = 0;
+  /// Of forces that are those of the strain alone.
+  SolidControl without_viscosity() const {
+    SolidControl out = *this;
+    out.Q1 = out.Q2 = out.MU = 0;
+    if (!out.stiff()) out.QM = 0;
+    return out;
+  }
 };
 
 /// What a thread keeps of the block it works on, from one loop to the next.
 struct SolidScratch {
-  /// Of nine vectors, and two more: with 27 the arrays behind would meet those before in the same lines of
-  /// the cache.
-  static constexpr int rows = 29;
+  /// Of nineteen vectors and four more. An even number would let arrays meet in the same lines of the cache.
+  static constexpr int rows = 61;
   alignas(64) Real rate[6][block_size];  ///< D of mid-step in the axes at its end: xx yy zz xy yz zx [1/T]
   /// Of hexahedra modes 1 to 7 of x, of others vectors of their own; the first three are 1 and all others 0
   /// in an element that is taken for one at rest. [L]
@@ -119,7 +125,7 @@ struct PointScratch : SolidScratch {
 
 /// A formulation with several points.
 struct PointLoops {
-  static constexpr int most_points = 8;
+  static constexpr int most_points = 27;
   /// Gathers corners, and the compression.
   void (*gather)(const ElementBlock& block, const SolidMesh& mesh, const SolidState& state,
                  PointScratch& scratch);

@@ -78,10 +78,22 @@ COURANT_INLINE void add_work(const Native s[6], Real dt, Index k, PointScratch& 
   store(scratch.work + k, load(scratch.work + k) + half * power);
 }
 
+/// det J times the gradients of three coordinates, of the derivatives r by them; returns det J.
+COURANT_INLINE Native cofactors(const Triple r[3], Triple out[3]) {
+  out[0] = cross(r[1], r[2]), out[1] = cross(r[2], r[0]), out[2] = cross(r[0], r[1]);
+  return dot(r[0], out[0]);
+}
+
+/// Elements of a block that the register at k holds.
+COURANT_INLINE Index lanes_at(Index k, const ElementBlock& block) {
+  return k + native_lanes <= block.count ? native_lanes : block.count - k;
+}
+
 /// The strain of one of several points: `u` derivatives of v by three coordinates, whose gradients are C /
-/// det. Of the trace, `mean` is the share that is that of the whole element.
+/// det. Of the trace, `share` is that of `trace`, which the element has there. [1/T]
 COURANT_INLINE void strain_point(Index first, Index n, Index k, Real dt, const Triple u[3], const Triple C[3],
-                                 Native det, Real mean, const SolidState& state, PointScratch& scratch) {
+                                 Native det, Native trace, Real share, const SolidState& state,
+                                 PointScratch& scratch) {
   Triple L[3];
   L[0] = u[0].x * C[0] + (u[1].x * C[1] + u[2].x * C[2]);
   L[1] = u[0].y * C[0] + (u[1].y * C[1] + u[2].y * C[2]);
@@ -90,8 +102,7 @@ COURANT_INLINE void strain_point(Index first, Index n, Index k, Real dt, const T
   turn_state(
       first, n, k, dt, L, 1.0 / det,
       [&](Native of_point[6]) {
-        const Native lacks =
-            (load(scratch.mean_trace + k) - of_point[0] - of_point[1] - of_point[2]) * (mean / 3);
+        const Native lacks = (trace - of_point[0] - of_point[1] - of_point[2]) * (share / 3);
         for (int j = 0; j < 3; ++j) of_point[j] += lacks;
       },
       state, scratch, D, s);

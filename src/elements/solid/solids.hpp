@@ -40,8 +40,11 @@ SolidControl control_of(const SolidPart& part);
 void build_solids(const Model& model, const std::vector<SolidPart>& parts, const std::vector<Index>& node_of,
                   World& world);
 
-/// Adds the forces of solids to the passes of `world`. `node_of` as above.
+struct ReferenceGeometry;
+/// Adds the forces of solids to the passes of `world`. `node_of` as above. Solids that are inside out in the
+/// reference geometry, or on the path from there, are errors.
 void add_solid_passes(const Model& model, const std::vector<SolidPart>& parts,
-                      const std::vector<Index>& node_of, ElementOptions& options, World& world);
+                      const std::vector<Index>& node_of, const ReferenceGeometry& reference,
+                      ElementOptions& options, World& world, Diagnostics& diagnostics);
 
 }  // namespace courant

@@ -76,11 +76,6 @@ COURANT_INLINE void nodal(const Native F[vectors], Native out[corners]) {
 COURANT_INLINE void slopes(const Triple a[vectors], int point, Triple out[3]) {
   for (int i = 0; i < 3; ++i) out[i] = point == 0 ? a[i] : a[i] + a[bent(i, point - 1)];
 }
-/// det J times the gradients of xi_i; returns det J.
-COURANT_INLINE Native cofactors(const Triple r[3], Triple out[3]) {
-  out[0] = cross(r[1], r[2]), out[1] = cross(r[2], r[0]), out[2] = cross(r[0], r[1]);
-  return dot(r[0], out[0]);
-}
 COURANT_INLINE void kept(const Real (*rows)[block_size], Index k, Triple out[vectors]) {
   for (int m = 0; m < vectors; ++m) out[m] = triple(rows + 3 * m, k);
 }
@@ -138,7 +133,8 @@ COURANT_INLINE void strain_of(Index first, Index n, Index k, Real dt, int point,
   slopes(a, point, r), slopes(w, point, u);
   const Native det = cofactors(r, C);
   store(scratch.weight + k, weight * det);
-  strain_point(first, n, k, dt, u, C, det, 1 - control.dilatation, state, scratch);
+  strain_point(first, n, k, dt, u, C, det, load(scratch.mean_trace + k), 1 - control.dilatation, state,
+               scratch);
 }
 
 COURANT_INLINE void add_of(Index first, Index n, Index k, Real dt, int point, const SolidControl& control,
@@ -211,11 +207,6 @@ COURANT_INLINE void forces_of(Index first, Index n, Index k, Real dt, const Soli
     for (int c = 0; c < corners; ++c) store(state.corner_force[3 * c + i] + first, f[c], n);
   }
   if (state.internal_energy) add(state.internal_energy + first, load(scratch.work + k), n);
-}
-
-/// Elements of a block that the register at k holds.
-COURANT_INLINE Index lanes_at(Index k, const ElementBlock& block) {
-  return k + native_lanes <= block.count ? native_lanes : block.count - k;
 }
 
 void gather(const ElementBlock& block, const SolidMesh& mesh, const SolidState& state,

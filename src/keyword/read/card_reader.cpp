@@ -58,6 +58,7 @@ void CardReader::read(const Block& block, Diagnostics& diagnostics) {
   }
   DataLines data(*block.source, block.line + 1);
   if (data.done() && !spec_->cards.empty() && !spec_->cards[0].optional) missing(data, "card 1");
+  if (data.done() && spec_->cards.empty()) read_set(data, *sink);  // its name says all
   bool first = true;
   while (!data.done() && !full()) {
     if (!first && only_blanks_left(data)) break;

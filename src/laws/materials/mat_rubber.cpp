@@ -39,8 +39,8 @@ class StretchRubber : public StrengthLaw {
 struct RubberCard : Entry {
   std::string title;
   Id mid = 0;
-  Real ro = 0, pr = 0, g = 0, sigf = 0, ref = 0, sgl = 0, sw = 0, st = 0, data = 1, bstart = 0, tramp = 0;
-  int n = 0, nv = 6;
+  Real ro = 0, pr = 0, g = 0, sigf = 0, sgl = 0, sw = 0, st = 0, data = 1, bstart = 0, tramp = 0;
+  int n = 0, nv = 6, ref = 0;
   Id lcid1 = 0, lcid2 = 0;
   std::vector<Real> gi{}, betai{};
 
@@ -70,7 +70,11 @@ std::vector<FieldOf<C>> first_rubber_fields() {
           {"NV", &C::nv, "-", "terms of a fit of relaxation", no_effect_but(6)},
           {"G", &C::g, "M/LT2", "damping that does not depend on the frequency", unsupported},
           {"SIGF", &C::sigf, "M/LT2", "limit of that damping", no_effect},
-          {"REF", &C::ref, "-", "stress from a reference geometry", unsupported}};
+          {"REF",
+           &C::ref,
+           "-",
+           "1: solids are strained from *INITIAL_FOAM_REFERENCE_GEOMETRY to where they start",
+           {.allowed = {0, 1}}}};
 }
 /// With N > 0, which is refused.
 template <class C>

@@ -18,15 +18,24 @@ namespace {
 
 constexpr const char* inside_out = "inside out, or without a volume";
 constexpr const char* bent_inwards = "a tetrahedron of ten nodes that is inside out at one of its points";
+constexpr const char* crushed = "a hexahedron of twenty nodes that is inside out at one of its points";
 constexpr std::size_t least_corners = 4, corners_of_hexahedron = 8;
 
 /// What is wrong with the nodes of a solid; nullptr: nothing.
 const char* wrong_nodes(const ModelSolid& solid) {
   const auto& node = solid.node;
-  if (std::any_of(node.begin() + corners_of_hexahedron, node.end(), [](Index n) { return n >= 0; })) {
+  constexpr std::size_t of_tetrahedron = 10;
+  const auto any_from = [&](std::size_t k) {
+    return std::any_of(node.begin() + static_cast<std::ptrdiff_t>(k), node.end(),
+                       [](Index n) { return n >= 0; });
+  };
+  if (any_from(corners_of_hexahedron)) {
+    const bool twenty = any_from(of_tetrahedron);
     std::set<Index> different(node.begin(), node.end());
     different.erase(-1);
-    return different.size() == node.size() ? nullptr : "of nine nodes, or of ten that are not all different";
+    if (different.size() == (twenty ? node.size() : of_tetrahedron)) return nullptr;
+    return twenty ? "of eleven to nineteen nodes, or of twenty that are not all different"
+                  : "of nine nodes, or of ten that are not all different";
   }
   if (solid.different_corners() < static_cast<int>(least_corners)) return "of less than four different nodes";
   const auto corner = solid.corners();
@@ -46,8 +55,9 @@ void ModelBuilder::build_solids() {
   for (const ElementSolidCard& card : cards) {
     const auto [it, is_new] = first.try_emplace(card.eid, &card);
     if (!is_new) duplicate(card, "EID", "solid element", card.eid, deck_.where(*it->second));
-    const Id ids[] = {card.n1, card.n2, card.n3, card.n4, card.n5,
-                      card.n6, card.n7, card.n8, card.n9, card.n10};
+    const Id ids[] = {card.n1,  card.n2,  card.n3,  card.n4,  card.n5,  card.n6,  card.n7,
+                      card.n8,  card.n9,  card.n10, card.n11, card.n12, card.n13, card.n14,
+                      card.n15, card.n16, card.n17, card.n18, card.n19, card.n20};
     ModelSolid solid;
     solid.id = card.eid;
     solid.part = part(card, "PID", card.pid);
@@ -63,6 +73,8 @@ void ModelBuilder::build_solids() {
       whole = false;
     }
     if (!whole) continue;
+    order_edge_nodes(solid);
+    if (wants_edge_nodes(card) && !make_edge_nodes(card, solid)) continue;
     add_to_part(card, solid, told);
     model_.solids.push_back(solid);
     solid_cards_.push_back(&card);
@@ -84,6 +96,7 @@ void ModelBuilder::add_to_part(const ElementSolidCard& card, const ModelSolid& s
 
 /// Once nodes are where the run starts.
 void ModelBuilder::check_solids() {
+  position_edge_nodes();
   check_solid_shapes();
   if (errors_ == 0) warn_of_loose_edges();
   if (const auto* control = deck_.last<ControlSolid>()) check_control_solid(*control);
@@ -109,11 +122,11 @@ void ModelBuilder::warn_of_loose_edges() {
   };
   for (std::size_t k = 0; k < model_.solids.size(); ++k) {
     const ModelSolid& solid = model_.solids[k];
-    for (std::size_t e = 0; solid.has_nodes_on_edges() && e < std::size(edges_of_tetrahedron); ++e) {
-      const auto& [a, b] = edges_of_tetrahedron[e];
-      const auto [known, is_new] =
-          middles.try_emplace(edge(solid.node[a], solid.node[b]), Middle{solid.node[4 + e], k});
-      if (!is_new && known->second.node != solid.node[4 + e]) note(known->second, k);
+    for (std::size_t e = 0; e < solid.edges_with_nodes().size(); ++e) {
+      const auto& [a, b] = solid.edges_with_nodes()[e];
+      const Index middle = solid.node[solid.first_on_edge() + e];
+      const auto [known, is_new] = middles.try_emplace(edge(solid.node[a], solid.node[b]), Middle{middle, k});
+      if (!is_new && known->second.node != middle) note(known->second, k);
     }
   }
   for (std::size_t k = 0; !middles.empty() && k < model_.solids.size(); ++k) {
@@ -128,8 +141,8 @@ void ModelBuilder::warn_of_loose_edges() {
   diagnostics_.warning(
       deck_.where(*solid_cards_[first->solid]),
       fmt::format(
-          "{} edge{} of tetrahedra of ten nodes {} a node that other solids with the same two corners do not "
-          "have, first node {} of element {} beside element {}: there the mesh opens",
+          "{} edge{} of solids with nodes on edges {} a node that other solids with the same two corners do "
+          "not have, first node {} of element {} beside element {}: there the mesh opens",
           count, count > 1 ? "s" : "", count > 1 ? "have" : "has",
           model_.nodes[static_cast<std::size_t>(first->node)].id, model_.solids[first->solid].id,
           model_.solids[other].id),
@@ -152,11 +165,15 @@ void ModelBuilder::check_solid_shapes() {
     if (wrong)
       note(solid_cards_[k], solid.part, wrong);
     else if (!(volume(solid) > 0))
-      note(solid_cards_[k], solid.part, solid.has_nodes_on_edges() ? bent_inwards : inside_out);
+      note(solid_cards_[k], solid.part,
+           solid.is_hexahedron_of_twenty() ? crushed
+           : solid.has_nodes_on_edges()    ? bent_inwards
+                                           : inside_out);
   }
   for (const auto& key : order) {
     const auto& [card, count] = found[key];
-    const bool bent = key.second == bent_inwards, turned = bent || key.second == inside_out;
+    const bool bent = key.second == bent_inwards, of_twenty = key.second == crushed,
+               turned = bent || of_twenty || key.second == inside_out;
     const std::string others = count > 1 ? fmt::format(" (and so {} {} more of part {})",
                                                        count > 2 ? "are" : "is", count - 1, card->pid)
                                          : "";
@@ -167,6 +184,9 @@ void ModelBuilder::check_solid_shapes() {
             : fmt::format("solid element {} is {}, which is not supported{}", card->eid, key.second, others),
         bent ? "N1 to N3 run counter-clockwise seen from N4, N5 to N10 are near the middles of edges 12, 23, "
                "31, 14, 24, 34"
+        : of_twenty ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N9 to N20 "
+                      "are near the "
+                      "middles of edges"
         : turned
             ? "N1 to N4 run around one face, counter-clockwise seen from the other one, N5 to N8 are above "
               "them"
@@ -199,6 +219,7 @@ Real ModelBuilder::least_volume(const ModelSolid& solid) const {
 /// Of a hexahedron with bilinear faces, from its modes xi, eta, zeta, eta zeta, zeta xi, xi eta (elements).
 /// [L3]
 Real ModelBuilder::volume(const ModelSolid& solid) const {
+  if (solid.is_hexahedron_of_twenty()) return least_volume_of_twenty(solid);
   if (solid.has_nodes_on_edges()) return least_volume(solid);
   constexpr int sign[6][8] = {{-1, 1, 1, -1, -1, 1, 1, -1}, {-1, -1, 1, 1, -1, -1, 1, 1},
                               {-1, -1, -1, -1, 1, 1, 1, 1}, {1, 1, -1, -1, -1, -1, 1, 1},
@@ -228,7 +249,7 @@ void ModelBuilder::check_control_solid(const ControlSolid& card) {
   };
   refuse("PSFAIL", card.psfail, "no solid is taken out of the run by its volume");
   if (std::none_of(model_.solids.begin(), model_.solids.end(),
-                   [](const ModelSolid& solid) { return solid.has_nodes_on_edges(); }))
+                   [](const ModelSolid& solid) { return solid.different_nodes() == 10; }))
     return;
   if (card.niptets != 0 && card.niptets != 4)
     deck_.warning(diagnostics_, card, "NIPTETS",

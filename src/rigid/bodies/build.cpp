@@ -320,8 +320,8 @@ class BodyBuilder {
   /// The solids of a part; adds their nodes to those of its body.
   void cells_of(Index part, std::set<Index>& nodes, Member& member) {
     for (const ModelSolid& solid : model_.solids) {
-      const std::array<Index, 10> corner = solid.all_corners();
-      const int corners = solid.has_nodes_on_edges() ? 10 : 8;
+      const std::array<Index, 20> corner = solid.all_corners();
+      const int corners = solid.corner_count();
       const bool reported = std::count(corner.begin(), corner.begin() + corners, Index(-1)) > 0;
       if (solid.part != part || reported) continue;  // five to seven, or nine nodes
       SkinCell& cell = member.cells.emplace_back(SkinCell{.id = solid.id, .corners = corners});

@@ -19,7 +19,7 @@ using test::SolidDeck;
 struct Formulation {
   int elform;
   CellShape cells;
-  bool ten_nodes = false;
+  bool on_edges = false;
 };
 const Formulation formulations[] = {{1, CellShape::hexahedron},       {1, CellShape::wedges},
                                     {2, CellShape::hexahedron},       {2, CellShape::wedges},
@@ -30,7 +30,7 @@ constexpr Real dt = 1e-5;
 /// Two cells of 0.2 x 0.3 x 0.25, somewhat distorted, in steps of 1e-5.
 std::unique_ptr<Simulation> solids(const Formulation& f, const std::string& material) {
   SolidDeck deck;
-  deck.cells = f.cells, deck.ten_nodes = f.ten_nodes;
+  deck.cells = f.cells, deck.on_edges = f.on_edges;
   deck.block(Vec(0.4, 0.3, 0.25), 2, 1, 1, 1, [](const Vec& x) {
     return Vec(x[0] + 0.1 * x[1], x[1] + 0.2 * x[2] * x[0], x[2] - 0.1 * x[0]);
   });

@@ -13,6 +13,7 @@
 
 #include "../../unit/elements/cell_shapes.hpp"
 #include "app/run/simulation.hpp"
+#include "model/mesh/solid_edges.hpp"
 
 namespace courant::test {
 
@@ -20,8 +21,10 @@ struct SolidDeck {
   std::vector<Vec> nodes;
   std::string elements, cards;
   CellShape cells = CellShape::hexahedron;  ///< not pyramids
-  /// Tetrahedra have ten nodes: straight edges, or the middles of edges before `shape` moves them.
-  bool ten_nodes = false, curved = false;
+  /// Tetrahedra have ten nodes, hexahedra twenty: straight edges, or the middles of edges before `shape`
+  /// moves them.
+  bool on_edges = false, curved = false;
+  std::string keyword = "*ELEMENT_SOLID";
 
   /// A block from the origin; `shape` moves its nodes before they are written. Returns its first node.
   std::size_t block(const Vec& size, int nx, int ny, int nz, int part,
@@ -54,12 +57,18 @@ struct SolidDeck {
           for (const auto& c :
                split(cells, {n(i, j, k), n(i + 1, j, k), n(i + 1, j + 1, k), n(i, j + 1, k), n(i, j, k + 1),
                              n(i + 1, j, k + 1), n(i + 1, j + 1, k + 1), n(i, j + 1, k + 1)}))
-            if (ten_nodes) {
-              const Index corner[4] = {c[0], c[1], c[2], c[4]};
-              elements += fmt::format("{:8}{:8}\n", ++element_, part);
-              for (const Index a : corner) elements += fmt::format("{:8}", a);
-              for (const auto& [a, b] : {std::array{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}})
-                elements += fmt::format("{:8}", middle(corner[a], corner[b]));
+            if (on_edges) {
+              const bool tetrahedron = cells == CellShape::tetrahedra;
+              std::vector<Index> all(c.begin(), c.end());
+              if (tetrahedron) all = {c[0], c[1], c[2], c[4]};
+              const std::vector<Index> corner = all;
+              if (tetrahedron)
+                for (const auto& [a, b] : edges_of_tetrahedron) all.push_back(middle(corner[a], corner[b]));
+              else
+                for (const auto& [a, b] : edges_of_hexahedron) all.push_back(middle(corner[a], corner[b]));
+              elements += fmt::format("{:8}{:8}", ++element_, part);
+              for (std::size_t m = 0; m < all.size(); ++m)
+                elements += fmt::format("{}{:8}", m % 10 == 0 ? "\n" : "", all[m]);
               elements += "\n";
             } else {
               elements += fmt::format("{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}{:8}\n", ++element_, part, c[0],
@@ -79,7 +88,8 @@ struct SolidDeck {
     std::string out = fmt::format("*KEYWORD\n*CONTROL_TERMINATION\n{:10.4g}\n", endtim) + cards + "*NODE\n";
     for (std::size_t n = 0; n < nodes.size(); ++n)
       out += fmt::format("{:8}{:16.9e}{:16.9e}{:16.9e}\n", n + 1, nodes[n][0], nodes[n][1], nodes[n][2]);
-    return out + "*ELEMENT_SOLID\n" + elements + particles + "*END\n";
+    return out + (on_edges && cells == CellShape::hexahedron ? "*ELEMENT_SOLID_H20" : keyword) + "\n" +
+           elements + particles + "*END\n";
   }
   std::string particles;
 

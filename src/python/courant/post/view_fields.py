@@ -22,8 +22,12 @@ _SOLID_FACES: dict[int, tuple[tuple[int, ...], ...]] = {
     8: ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
     10: tuple(tri for a, b, c, ab, bc, ca in ((0, 2, 1, 6, 5, 4), (0, 1, 3, 4, 8, 7), (1, 2, 3, 5, 9, 8), (2, 0, 3, 6, 7, 9))
               for tri in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))),
+    20: tuple(face for a, b, c, d, ab, bc, cd, da in ((0, 3, 2, 1, 11, 10, 9, 8), (4, 5, 6, 7, 12, 13, 14, 15), (0, 1, 5, 4, 8, 17, 12, 16),
+                                                      (1, 2, 6, 5, 9, 18, 13, 17), (2, 3, 7, 6, 10, 19, 14, 18), (3, 0, 4, 7, 11, 16, 15, 19))
+              for face in ((ab, bc, cd, da), (a, ab, da), (b, bc, ab), (c, cd, bc), (d, da, cd))),
 }
-_SOLID_TYPES = {10: 4, 12: 8, 13: 6, 24: 10}  # VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_QUADRATIC_TETRA
+_SOLID_TYPES = {10: 4, 12: 8, 13: 6, 24: 10, 25: 20}
+# VTK_TETRA, VTK_HEXAHEDRON, VTK_WEDGE, VTK_QUADRATIC_TETRA, VTK_QUADRATIC_HEXAHEDRON
 
 
 class UnknownField(KeyError):

@@ -1,20 +1,23 @@
-// Tetrahedra of ten nodes (ELFORM 16) against theory.
+// Tetrahedra of ten nodes (ELFORM 16) and hexahedra of twenty (ELFORM 23) against theory.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "output/fields/vtk_cell.hpp"
+#include "quadratic_decks.hpp"
 #include "same_bits.hpp"
 #include "solid_decks.hpp"
 #include "state/reports.hpp"
 
 using namespace courant;
 
-namespace quadratic_tetrahedra_test {
+namespace quadratic_solids_test {
 
 using test::CellShape;
 using test::do_nothing;
 using test::expect_same_bits;
+using test::quadratic;
+using test::QuadraticSolids;
 using test::simulation_of;
 using test::SolidDeck;
 
@@ -22,18 +25,16 @@ namespace {
 
 const std::string no_bulk_viscosity = "*CONTROL_BULK_VISCOSITY\n1e-9,1e-9\n";
 
-SolidDeck tetrahedra(const std::string& material) {
-  SolidDeck deck;
-  deck.cells = CellShape::tetrahedra, deck.ten_nodes = true;
-  deck.cards = "*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,16\n*" + material + "\n";
-  return deck;
-}
+INSTANTIATE_TEST_SUITE_P(Of, QuadraticSolids, ::testing::Values(CellShape::tetrahedra, CellShape::hexahedron),
+                         [](const auto& shape) {
+                           return shape.param == CellShape::tetrahedra ? "Tetrahedra" : "Hexahedra";
+                         });
 
 /// A free block of random cells with straight edges.
-SolidDeck random_block(std::array<int, 3> n, const std::string& material, std::mt19937& random,
-                       Real distortion, Real flat = 1) {
+SolidDeck random_block(CellShape shape, std::array<int, 3> n, const std::string& material,
+                       std::mt19937& random, Real distortion, Real flat = 1) {
   std::uniform_real_distribution<Real> number(-distortion, distortion);
-  SolidDeck deck = tetrahedra(material);
+  SolidDeck deck = quadratic(shape, material);
   deck.block(Vec(n[0], n[1], flat * n[2]), n[0], n[1], n[2], 1, [&](const Vec& x) {
     return Vec(x + Vec(number(random), number(random), flat * number(random)));
   });
@@ -52,12 +53,12 @@ Real all_energy(Simulation& s) {
 
 // An affine motion of a distorted block: one stress at all points, that of Hooke's law, and no force on nodes
 // inside, at corners and on edges.
-TEST(QuadraticTetrahedra, PassThePatchTest) {
+TEST_P(QuadraticSolids, PassThePatchTest) {
   for (const Real nu : {0.0, 0.25, 0.4999}) {
     std::mt19937 random(5);
     const SolidDeck deck = random_block(
-        {3, 3, 3}, fmt::format("MAT_ELASTIC\n1,1.0,{},{}", 2 * (1 + nu), nu) + "\n" + no_bulk_viscosity,
-        random, 0.2);
+        GetParam(), {3, 3, 3},
+        fmt::format("MAT_ELASTIC\n1,1.0,{},{}", 2 * (1 + nu), nu) + "\n" + no_bulk_viscosity, random, 0.2);
     auto s = simulation_of(deck.text(1e9));
     Nodes& nodes = s->world().nodes;
     Matrix L;
@@ -73,9 +74,9 @@ TEST(QuadraticTetrahedra, PassThePatchTest) {
     constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
     std::vector<Vec> force(static_cast<std::size_t>(nodes.size()), Vec::Zero());
     for (Index e = 0; e < group.size(); ++e) {
-      for (int c = 0; c < 24; ++c)
+      for (int c = 0; c < found.info().components; ++c)
         EXPECT_NEAR(found.data(c)[e], stress(row[c % 6], column[c % 6]), 1e-6 * stress.norm()) << nu;
-      for (int c = 0; c < 10; ++c)
+      for (int c = 0; c < group.corners(); ++c)
         for (int k = 0; k < 3; ++k)
           force[static_cast<std::size_t>(group.node.data(c)[e])][k] += group.corner_force->data(3 * c + k)[e];
     }
@@ -90,25 +91,29 @@ TEST(QuadraticTetrahedra, PassThePatchTest) {
   }
 }
 
-// Nothing but rigid motions goes without stress in one free element: all of 24 other motions swing.
-TEST(QuadraticTetrahedra, HaveNoModeWithoutEnergy) {
+// Nothing but rigid motions goes without stress in one free element: all other motions swing.
+TEST_P(QuadraticSolids, HaveNoModeWithoutEnergy) {
   for (const char* nu : {"0.0", "0.3", "0.4999"}) {
     std::mt19937 random(2);
     std::uniform_real_distribution<Real> number(-1, 1);
-    SolidDeck deck = tetrahedra(fmt::format("MAT_ELASTIC\n1,1.0,1.0,{}\n", nu) + no_bulk_viscosity);
-    deck.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (const auto& [a, b] : {std::array{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}})
-      deck.nodes.push_back(
-          0.5 * (deck.nodes[static_cast<std::size_t>(a)] + deck.nodes[static_cast<std::size_t>(b)]));
-    deck.elements =
-        "       1       1\n       1       2       3       4       5       6       7       8       9      "
-        "10\n";
+    SolidDeck deck = solids(fmt::format("MAT_ELASTIC\n1,1.0,1.0,{}\n", nu) + no_bulk_viscosity);
+    if (tetrahedra()) {
+      deck.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      for (const auto& [a, b] : edges_of_tetrahedron)
+        deck.nodes.push_back(
+            0.5 * (deck.nodes[static_cast<std::size_t>(a)] + deck.nodes[static_cast<std::size_t>(b)]));
+      deck.elements =
+          "       1       1\n       1       2       3       4       5       6       7       8       9      "
+          "10\n";
+    } else {
+      deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
+    }
     const std::string text = deck.text(1e9);
     auto s = simulation_of(text);
     Nodes& nodes = s->world().nodes;
     // the conformal motion 2 (b.x) x - (x.x) b about the centre, with its rigid part taken out by symmetry of
     // b
-    const Vec b(1, 0.5, -0.3), centre(0.25, 0.25, 0.25);
+    const Vec b(1, 0.5, -0.3), centre = Vec::Constant(tetrahedra() ? 0.25 : 0.5);
     for (Index i = 0; i < nodes.size(); ++i) {
       const Vec x = nodes.x.vec(i) - centre;
       nodes.v.set(i, 1e-6 * (2 * b.dot(x) * x - x.squaredNorm() * b));
@@ -125,7 +130,7 @@ TEST(QuadraticTetrahedra, HaveNoModeWithoutEnergy) {
 }
 
 // Stable at TSSFAC 0.9 whatever the shape, curved edges, thin elements and Poisson's ratio.
-TEST(QuadraticTetrahedra, RandomFreeBlocksAreStable) {
+TEST_P(QuadraticSolids, RandomFreeBlocksAreStable) {
   std::mt19937 random(3);
   std::uniform_real_distribution<Real> number(-1, 1);
   const char* const nu[] = {"0.0", "0.3", "0.495"};
@@ -133,7 +138,7 @@ TEST(QuadraticTetrahedra, RandomFreeBlocksAreStable) {
   int grown = 0;
   for (int k = 0; k < 300; ++k) {
     const Real flat = k % 7 == 0 ? 0.1 : 1;
-    SolidDeck deck = random_block(sizes[k / 3 % 3],
+    SolidDeck deck = random_block(GetParam(), sizes[k / 3 % 3],
                                   fmt::format("MAT_ELASTIC\n1,1.0,1.0,{}\n", nu[k % 3]) + no_bulk_viscosity,
                                   random, 0.15 + 0.1 * number(random), flat);
     if (k % 2 == 0)
@@ -174,10 +179,10 @@ std::vector<Real> turns_of(Simulation& s, Index node, int axis, std::size_t coun
 
 // Half a period of the first mode of a cantilever of length 16 and height 1, one cell over the height.
 // Timoshenko's shear and rotary inertia take 0.4 to 0.5 % off the frequency here.
-TEST(QuadraticTetrahedra, BendAsABeamWithOneElementOverTheHeight) {
+TEST_P(QuadraticSolids, BendAsABeamWithOneElementOverTheHeight) {
   constexpr Real length = 16, E = 1e4, beta = 1.875104;
   for (const Real nu : {0.0, 0.3}) {
-    SolidDeck deck = tetrahedra(fmt::format("MAT_ELASTIC\n1,1.0,{},{}\n", E, nu) + no_bulk_viscosity);
+    SolidDeck deck = solids(fmt::format("MAT_ELASTIC\n1,1.0,{},{}\n", E, nu) + no_bulk_viscosity);
     deck.block(Vec(length, 1, 1), 10, 1, 1, 1);
     deck.node_set(1, [](const Vec& x) { return x[0] < 1e-9; });
     deck.node_set(2, [](const Vec& x) { return x.norm() < 1e-9; });
@@ -205,8 +210,8 @@ TEST(QuadraticTetrahedra, BendAsABeamWithOneElementOverTheHeight) {
 }
 
 // A bar held at one end swings along itself with c/(4 L), c = sqrt(E/ro), nu = 0.
-TEST(QuadraticTetrahedra, ABarSwingsAlongItself) {
-  SolidDeck deck = tetrahedra("MAT_ELASTIC\n1,1.0,1.0,0.0\n" + no_bulk_viscosity);
+TEST_P(QuadraticSolids, ABarSwingsAlongItself) {
+  SolidDeck deck = solids("MAT_ELASTIC\n1,1.0,1.0,0.0\n" + no_bulk_viscosity);
   deck.block(Vec(8, 1, 1), 8, 1, 1, 1);
   deck.node_set(1, [](const Vec& x) { return x[0] < 1e-9; });
   deck.cards += "*BOUNDARY_SPC_SET\n1,0,1,1,1\n";
@@ -219,16 +224,18 @@ TEST(QuadraticTetrahedra, ABarSwingsAlongItself) {
   }
   const std::vector<Real> turned = turns_of(*s, tip, 0, 2, 100, 10);
   ASSERT_EQ(turned.size(), 2u);
-  EXPECT_NEAR((turned[1] - turned[0]) / 16, 1, 0.002);
+  // of twenty nodes corners have positive masses and, under a uniform stress, negative shares of the force,
+  // so that cross sections warp, less with the square of the width
+  EXPECT_NEAR((turned[1] - turned[0]) / 16, 1, tetrahedra() ? 0.002 : 0.005);
 }
 
 namespace {
 
 /// Shift of the inner face of a tube between two plates under an inner pressure over that of Lame's solution;
 /// inner radius 1, outer 2, n cells through the wall, edges curved.
-Real widening_of_tube(int n, Real nu) {
+Real widening_of_tube(CellShape shape, int n, Real nu) {
   const Real pressure = 1e-4;
-  SolidDeck deck = tetrahedra(fmt::format("MAT_ELASTIC\n1,1.0,1.0,{}", nu));
+  SolidDeck deck = quadratic(shape, fmt::format("MAT_ELASTIC\n1,1.0,1.0,{}", nu));
   deck.curved = true;
   const int around = 2 * n;
   deck.block(Vec(1, 1, 1), n, around, 1, 1, [&](const Vec& x) {
@@ -243,6 +250,11 @@ Real widening_of_tube(int n, Real nu) {
       "*DEFINE_CURVE\n1\n0.0,1.0\n1000.0,1.0\n*LOAD_SEGMENT\n";
   const auto node = [&](int j, int k) { return 1 + (n + 1) * (j + (around + 1) * k); };
   for (int j = 0; j < around; ++j) {
+    if (shape == CellShape::hexahedron) {
+      deck.cards += fmt::format("1,{},0.0,{},{},{},{}\n", pressure, node(j, 0), node(j, 1), node(j + 1, 1),
+                                node(j + 1, 0));
+      continue;
+    }
     deck.cards += fmt::format("1,{},0.0,{},{},{}\n", pressure, node(j, 0), node(j, 1), node(j + 1, 1));
     deck.cards += fmt::format("1,{},0.0,{},{},{}\n", pressure, node(j, 0), node(j + 1, 1), node(j + 1, 0));
   }
@@ -262,23 +274,23 @@ Real widening_of_tube(int n, Real nu) {
 
 }  // namespace
 
-TEST(QuadraticTetrahedra, ATubeThatKeepsItsVolumeWidensAsInTheory) {
+TEST_P(QuadraticSolids, ATubeThatKeepsItsVolumeWidensAsInTheory) {
   for (const Real nu : {0.3, 0.499, 0.4999}) {
-    const Real found = widening_of_tube(3, nu);
+    const Real found = widening_of_tube(GetParam(), tetrahedra() ? 3 : 2, nu);
     RecordProperty(fmt::format("ratio_{}", nu), fmt::format("{:.4f}", found));
     EXPECT_NEAR(found, 1, 0.01) << nu;
   }
 }
 
 // Free bodies that spin and ring at large amplitude keep their energy, momentum and spin.
-TEST(QuadraticTetrahedra, KeepEnergyAndMomentum) {
+TEST_P(QuadraticSolids, KeepEnergyAndMomentum) {
   for (const char* material :
        {"MAT_ELASTIC\n1,1000.0,1.0E7,0.49", "MAT_MOONEY-RIVLIN_RUBBER\n1,1000.0,0.495,1.0E6,3.0E5",
         "MAT_PLASTIC_KINEMATIC\n1,1000.0,1.0E7,0.3,1.0E5,1.0E6,1.0\n0.0,0.0,0.15",
         "MAT_ELASTIC_PLASTIC_HYDRO\n1,1000.0,4.0E6,1.0E5,1.0E6"}) {
     std::mt19937 random(7);
-    SolidDeck deck =
-        random_block({2, 2, 2}, std::string(material) + "\n*CONTROL_TIMESTEP\n0.0,0.5\n", random, 0.15);
+    SolidDeck deck = random_block(GetParam(), {2, 2, 2},
+                                  std::string(material) + "\n*CONTROL_TIMESTEP\n0.0,0.5\n", random, 0.15);
     if (std::string(material).find("HYDRO") != std::string::npos) {
       const std::size_t at = deck.cards.find("1,1,1\n");
       deck.cards.replace(at, 6, "1,1,1,1\n");
@@ -320,8 +332,8 @@ TEST(QuadraticTetrahedra, KeepEnergyAndMomentum) {
 
 // A copper cylinder of 32.4 mm by 3.2 mm hits a wall with 227 m/s. Published calculations end at lengths
 // of 21.4 to 21.5 mm and feet of 7.0 to 7.1 mm.
-TEST(QuadraticTetrahedra, TaylorsBar) {
-  SolidDeck deck = tetrahedra("MAT_PLASTIC_KINEMATIC\n1,8930.0,1.17E11,0.35,4.0E8,1.0E8,1.0\n");
+TEST_P(QuadraticSolids, TaylorsBar) {
+  SolidDeck deck = solids("MAT_PLASTIC_KINEMATIC\n1,8930.0,1.17E11,0.35,4.0E8,1.0E8,1.0\n");
   deck.curved = true;
   constexpr Real R = 3.2e-3, length = 32.4e-3;
   deck.block(Vec(1, 1, length), 3, 3, 18, 1, [&](const Vec& x) {  // a quarter of a disc
@@ -351,9 +363,9 @@ TEST(QuadraticTetrahedra, TaylorsBar) {
 }
 
 // FS: elements go, and the skin beneath them comes to light.
-TEST(QuadraticTetrahedra, AreDeleted) {
+TEST_P(QuadraticSolids, AreDeleted) {
   SolidDeck deck =
-      tetrahedra("MAT_PLASTIC_KINEMATIC\n1,1.0,1.0,0.3,0.01,0.1,1.0\n0.0,0.0,0.05\n" + no_bulk_viscosity);
+      solids("MAT_PLASTIC_KINEMATIC\n1,1.0,1.0,0.3,0.01,0.1,1.0\n0.0,0.0,0.05\n" + no_bulk_viscosity);
   deck.block(Vec(1, 1, 1), 1, 1, 1, 1);
   deck.node_set(1, [](const Vec& x) { return x[0] < 1e-9; });
   deck.node_set(2, [](const Vec& x) { return x[0] > 1 - 1e-9; });
@@ -362,17 +374,19 @@ TEST(QuadraticTetrahedra, AreDeleted) {
       "CURVE\n1\n0.0,0.01\n1e9,0.01\n";
   auto s = simulation_of(deck.text(100));
   test::start_ledger(*s);
-  while (s->world().counters["deleted_elements"] < 6 && s->clock().t < 90) s->step(do_nothing);
-  EXPECT_EQ(s->world().counters["deleted_elements"], 6);
+  const Index all = s->world().groups.at(0)->size();
+  while (s->world().counters["deleted_elements"] < all && s->clock().t < 90) s->step(do_nothing);
+  EXPECT_EQ(s->world().counters["deleted_elements"], all);
   for (int k = 0; k < 3; ++k) s->step(do_nothing);
-  for (int k = 0; k < 30; ++k) EXPECT_EQ(s->world().groups.at(0)->corner_force->data(k)[0], 0);
+  const Field<Real>& force = *s->world().groups.at(0)->corner_force;
+  for (int k = 0; k < force.info().components; ++k) EXPECT_EQ(force.data(k)[0], 0);
   EXPECT_GT(s->world().energy.dissipated, 1e-4);
 }
 
 // A block comes to rest on a held plate under its own weight: contact carries it, through faces of four
 // triangles.
-TEST(QuadraticTetrahedra, ABlockRestsOnAPlate) {
-  SolidDeck deck = tetrahedra("MAT_ELASTIC\n1,1000.0,1.0E6,0.3\n");
+TEST_P(QuadraticSolids, ABlockRestsOnAPlate) {
+  SolidDeck deck = solids("MAT_ELASTIC\n1,1000.0,1.0E6,0.3\n");
   deck.block(Vec(0.2, 0.2, 0.2), 2, 2, 2, 1, [](const Vec& x) { return Vec(x + Vec(0.1, 0.1, 0.006)); });
   const std::size_t first = deck.nodes.size() + 1;
   for (const Vec& x : {Vec(0, 0, 0), Vec(0.4, 0, 0), Vec(0.4, 0.4, 0), Vec(0, 0.4, 0)})
@@ -397,12 +411,14 @@ TEST(QuadraticTetrahedra, ABlockRestsOnAPlate) {
   }
   EXPECT_NEAR(mass, 8, 1e-9);
   EXPECT_LT(fastest, 1e-3);
-  EXPECT_NEAR(lowest, 0.005, 5e-4);
+  // of twenty nodes those on the edges of the lower face carry all of a pressure: less of them, each sinks
+  // deeper
+  EXPECT_NEAR(lowest, 0.005, tetrahedra() ? 5e-4 : 1.2e-3);
 }
 
 // Of a rigid box mass and inertia are those of the box; cells of VTK are quadratic.
-TEST(QuadraticTetrahedra, MakeRigidBodies) {
-  SolidDeck deck = tetrahedra("MAT_RIGID\n1,1000.0,1.0E6,0.3\n\n");
+TEST_P(QuadraticSolids, MakeRigidBodies) {
+  SolidDeck deck = solids("MAT_RIGID\n1,1000.0,1.0E6,0.3\n\n");
   deck.block(Vec(0.1, 0.2, 0.3), 1, 2, 2, 1);
   auto s = simulation_of(deck.text(1));
   ASSERT_TRUE(s != nullptr);
@@ -413,19 +429,19 @@ TEST(QuadraticTetrahedra, MakeRigidBodies) {
   const Vec box(6.0 / 12 * (0.01 + 0.04), 6.0 / 12 * (0.01 + 0.09), 6.0 / 12 * (0.04 + 0.09));
   EXPECT_LT((J - box).norm(), 1e-12);
 
-  SolidDeck elastic = tetrahedra("MAT_ELASTIC\n1,1000.0,1.0E6,0.3");
+  SolidDeck elastic = solids("MAT_ELASTIC\n1,1000.0,1.0E6,0.3");
   elastic.block(Vec(1, 1, 1), 1, 1, 1, 1);
   auto e = simulation_of(elastic.text(1));
   const VtkCell cell = vtk_cell(*e->world().groups.at(0), 0);
-  EXPECT_EQ(cell.type, 24);
-  EXPECT_EQ(cell.corners.size(), 10u);
+  EXPECT_EQ(cell.type, tetrahedra() ? 24 : 25);
+  EXPECT_EQ(cell.corners.size(), tetrahedra() ? 10u : 20u);
 }
 
-TEST(QuadraticTetrahedra, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
+TEST_P(QuadraticSolids, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
   for (const char* material : {"MAT_PLASTIC_KINEMATIC\n1,1000.0,1e6,0.3,1e3,1e4,0.3\n10.0,4.0,0.5,1",
                                "MAT_MOONEY-RIVLIN_RUBBER\n1,1000.0,0.49,1e5,2e4",
                                "MAT_SIMPLIFIED_JOHNSON_COOK\n1,1000.0,1e6,0.3\n1e3,2e3,0.5,0.02,0.8"}) {
-    SolidDeck deck = tetrahedra(material);
+    SolidDeck deck = solids(material);
     deck.block(Vec(0.4, 0.3, 0.2), 4, 3, 2, 1);
     deck.cards += "*INITIAL_VELOCITY\n0\n-2.0,0.5,-3.0\n*RIGIDWALL_PLANAR\n0\n-0.01,0.0,0.0,1.0,0.0,0.0\n";
     expect_same_bits(deck.text(1), 150, 25);
@@ -433,14 +449,22 @@ TEST(QuadraticTetrahedra, HaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
 }
 
 // One pressure on all of a closed surface, of curved faces, has neither a force nor a moment.
-TEST(QuadraticTetrahedra, OfCurvedFacesAreNotTurnedByAPressure) {
-  const std::string deck =
+TEST_P(QuadraticSolids, OfCurvedFacesAreNotTurnedByAPressure) {
+  const std::string cube =
+      "*KEYWORD\n*CONTROL_TERMINATION\n0.3\n*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,23\n*MAT_ELASTIC\n"
+      "1,1e-3,1000,0.3\n*NODE\n1,0,0,0\n2,1,0.1,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1.1\n7,1.2,1,1\n8,0,1,1\n"
+      "9,0.5,0.05,-0.1\n10,1.1,0.5,0.05\n11,0.5,1.1,0\n12,-0.05,0.5,0.1\n13,0.06,-0.04,0.5\n14,1.1,0,0.5\n"
+      "15,1.1,1.05,0.5\n16,0,1.1,0.5\n17,0.5,-0.1,1.1\n18,1.1,0.5,1.1\n19,0.6,1.1,1\n20,-0.1,0.5,1.05\n"
+      "*ELEMENT_SOLID_H20\n1,1\n1,2,3,4,5,6,7,8,9,10\n11,12,13,14,15,16,17,18,19,20\n*LOAD_SEGMENT\n"
+      "1,1,0,1,4,3,2\n1,1,0,5,6,7,8\n1,1,0,1,2,6,5\n1,1,0,2,3,7,6\n1,1,0,3,4,8,7\n1,1,0,4,1,5,8\n"
+      "*DEFINE_CURVE\n1\n0,0\n0.3,10\n1,10\n*END\n";
+  const std::string tetrahedron =
       "*KEYWORD\n*CONTROL_TERMINATION\n0.3\n*PART\nblock\n1,1,1\n*SECTION_SOLID\n1,16\n*MAT_ELASTIC\n"
       "1,1e-3,1000,0.3\n*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n5,0.52,0.05,-0.03\n6,0.56,0.5,0.04\n"
       "7,-0.03,0.5,0.02\n8,0,0.04,0.5\n9,0.5,0,0.5\n10,0.03,0.5,0.48\n*ELEMENT_SOLID\n1,1\n"
       "1,2,3,4,5,6,7,8,9,10\n*LOAD_SEGMENT\n1,1,0,1,3,2,2\n1,1,0,1,2,4,4\n1,1,0,2,3,4,4\n1,1,0,3,1,4,4\n"
       "*DEFINE_CURVE\n1\n0,0\n0.3,10\n1,10\n*END\n";
-  auto s = simulation_of(deck);
+  auto s = simulation_of(tetrahedra() ? tetrahedron : cube);
   while (s->clock().t < 0.3) s->step(do_nothing);
   const Nodes& nodes = s->world().nodes;
   Vec P = Vec::Zero(), L = P;
@@ -456,4 +480,4 @@ TEST(QuadraticTetrahedra, OfCurvedFacesAreNotTurnedByAPressure) {
   EXPECT_LT(L.norm(), 1e-9 * turns);
 }
 
-}  // namespace quadratic_tetrahedra_test
+}  // namespace quadratic_solids_test
