@@ -86,6 +86,28 @@ TEST(WaveMaker, FlapTurnsAboutItsHinge) {
   }
 }
 
+// The line of the level leans with the flap: its height counts, not its length. The paddle touches nothing,
+// so that the surface stays as it is.
+TEST(WaveMaker, ALeaningFlapMeasuresTheLevelOfTheWater) {
+  for (const Real far : {0.15, -0.15}) {
+    SmallScene scene{.n = 8};
+    scene.extra = paddle_cards("2,1,21,1.,12,0.8\n0.,0.,0.,1.,0.,0.\n1.,0.45,0.0001,0.,0.5");
+    scene.extra += fmt::format("*DEFINE_CURVE\n21\n0.,0.\n0.002,{0}\n1.,{0}\n", far);
+    auto s = build_deck(scene.text(), false);
+    ASSERT_TRUE(s);
+    test::run(*s, 0.004);
+    const RigidBody& b = paddle_of(*s);
+    const auto displacement = [&] {
+      const Vec up = b.q * Vec::UnitY();
+      return 0.8 * up.x() / up.y();
+    };
+    const Real before = displacement(), start = s->clock().t;
+    test::run(*s, 0.014);
+    const Real missing = (displacement() - before) / (2 * std::sqrt(9.81 / 0.8) * (s->clock().t - start));
+    EXPECT_NEAR(missing, 0, 0.005) << far;
+  }
+}
+
 // A level that is too low calls the paddle towards the water, one that is too high moves it back.
 TEST(WaveMaker, AbsorbsTowardsTheLevelThatItShouldHave) {
   for (const Real depth : {0.7, 0.5}) {
