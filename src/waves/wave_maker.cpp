@@ -38,7 +38,7 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
   /// The velocity of the coming step, so that the paddle is where it should be at its end.
   void strike(World& world, const Clock& clock) override {
     next_filtered_ = filtered_, next_correction_ = correction_, next_return_ = return_,
-    next_square_ = square_;
+    next_square_ = square_, next_excess_ = excess_;
     if (s_.gain > 0) correct(world, clock);
     const Real before = value_of(s_.displacement, 0), after = value_of(s_.displacement, clock.t + clock.dt);
     move_to(s_.sf * (after - before) + next_correction_, clock.dt);
@@ -46,7 +46,7 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
   /// The only call of a step that is certain to be followed by its motion.
   void record(World& world, const Clock&, EnergyLedger&) override {
     filtered_ = next_filtered_, correction_ = next_correction_, return_ = next_return_,
-    square_ = next_square_;
+    square_ = next_square_, excess_ = next_excess_;
     if (s_.gain == 0) return;
     Real& most = world.maxima[fmt::format("wave_maker_{}_correction", s_.id)];
     most = std::max(most, std::abs(correction_));
@@ -61,6 +61,7 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
     archive("correction", correction_);
     archive("return", return_);
     archive("square", square_);
+    archive("excess", excess_);
     archive("still", still_);
     archive("started", started_);
   }
@@ -97,6 +98,12 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
     started_ = 1;
     still_ = std::abs(elevation) < resolution * spacing ? elevation : 0;
   }
+  /// Of the displacement. [L/T]
+  Real velocity_at_level() const {
+    if (s_.paddle.kind == Paddle::Kind::piston) return body().v.dot(s_.paddle.along);
+    const Real c = std::cos(angle());
+    return s_.paddle.arm() * body().omega.dot(s_.paddle.axis()) / (c * c);
+  }
   Real curve_speed(const Clock& clock) const {
     const Real before = value_of(s_.displacement, clock.t),
                after = value_of(s_.displacement, clock.t + clock.dt);
@@ -106,11 +113,12 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
     const Real own = s_.sf * value_of(s_.elevation, clock.t), measured = elevation(world, clock);
     if (!started_) take_still_level(world, measured - own);
     // beside a moving paddle the level is that at rest plus X deta/dx, with deta/dx = -X''/g at the surface,
-    // whose mean is X'^2/g; of the curve alone, as the absorption must not act on itself
-    const Real missing = own - (measured - still_ - square_ / s_.g);
+    // whose mean is X'^2/g; that of the absorption comes late, so that it does not act on itself
+    const Real missing = own - (measured - still_ - (square_ + excess_) / s_.g);
     if (s_.drift > 0) {
-      const Real speed = curve_speed(clock), so_far = std::min(clock.t, s_.drift);
+      const Real speed = curve_speed(clock), now = velocity_at_level(), so_far = std::min(clock.t, s_.drift);
       next_square_ = square_ + clock.dt / (clock.dt + so_far) * (speed * speed - square_);
+      next_excess_ = excess_ + clock.dt / (clock.dt + s_.drift) * (now * now - speed * speed - excess_);
     }
     const Real share = s_.filter > 0 ? 1 - std::exp(-clock.dt / s_.filter) : 1;
     next_filtered_ = filtered_ + share * (missing - filtered_);
@@ -160,6 +168,7 @@ class WaveMaker : public Impact, public EnergyTerm, public Restartable, public M
   Real filtered_ = 0, correction_ = 0;            ///< at t^n [L]
   Real next_filtered_ = 0, next_correction_ = 0;  ///< at t^n+1 [L]
   Real return_ = 0, next_return_ = 0;             ///< velocity back to the curve, at t^n and t^n+1 [L/T]
+  Real excess_ = 0, next_excess_ = 0;             ///< mean of X'^2 - X0'^2 [L2/T2]
   Real square_ = 0, next_square_ = 0;             ///< mean of X0'^2 over `drift` [L2/T2]
   Real still_ = 0;                                ///< elevation of still water as the gauge has it [L]
   std::int64_t started_ = 0;                      ///< whether `still_` is known
