@@ -116,8 +116,10 @@ class GaugeBuilder {
       const auto part = model_.part_of_id.find(card.pid);
       const bool is_fixed =
           part != model_.part_of_id.end() && model_.parts[static_cast<std::size_t>(part->second)].rigid;
+      if (at == motions.end() && part == model_.part_of_id.end())
+        return error(card, "PID", fmt::format("part {} does not exist", card.pid), "define it with *PART");
       if (at == motions.end() && !is_fixed)
-        return error(card, "PID", fmt::format("{} is no rigid body", card.pid),
+        return error(card, "PID", fmt::format("part {} is no rigid body", card.pid),
                      "a gauge moves with a part of *MAT_RIGID, or its number is 0");
       if (at != motions.end()) body = static_cast<int>(at - motions.begin()), start = *at;
     }
@@ -155,6 +157,17 @@ class GaugeBuilder {
 
   void build_force(const ForceGaugeCard& card) {
     GaugeLayout made = layout(card);
+    const bool exists = card.stype == 0   ? model_.segment_sets.contains(card.sid)
+                        : card.stype == 2 ? model_.part_sets.contains(card.sid)
+                                          : model_.part_of_id.contains(card.sid);
+    if (!exists)
+      return error(card, "SID",
+                   fmt::format("{} {} does not exist",
+                               card.stype == 0   ? "segment set"
+                               : card.stype == 2 ? "part set"
+                                                 : "part",
+                               card.sid),
+                   "define it, or look at STYPE: 0 segment set, 2 part set, 3 part");
     std::vector<char> faces = faces_of(card);
     if (std::none_of(faces.begin(), faces.end(), [](char one) { return one != 0; }))
       return error(card, "SID", "there are no faces here that anything can touch",
@@ -216,15 +229,19 @@ class GaugeBuilder {
 };
 
 void build_gauges(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
-                  const SphSettings& settings, const std::shared_ptr<RigidBodies>& bodies) {
+                  const SphSettings& settings, const std::shared_ptr<RigidBodies>& bodies,
+                  const std::shared_ptr<Neighbours>& neighbours) {
   if (deck.all<PointGaugeCard>().empty() && deck.all<LevelGaugeCard>().empty() &&
       deck.all<RunupGaugeCard>().empty() && deck.all<FluxGaugeCard>().empty() &&
       deck.all<ForceGaugeCard>().empty())
     return;
   auto gauges = GaugeBuilder(deck, model, world, diagnostics, bodies.get()).build();
-  if (!gauges.empty())
-    world.passes.add(
-        std::make_shared<Gauges>(std::move(gauges), settings.kernel, acceleration_of_particles(model)));
+  if (gauges.empty()) return;
+  std::vector<GhostPlane> periodic;
+  for (const GhostPlane& plane : settings.walls.planes)
+    if (plane.kind == GhostPlane::Kind::periodic) periodic.push_back(plane);
+  world.passes.add(std::make_shared<Gauges>(
+      std::move(gauges), settings.kernel, acceleration_of_particles(model), neighbours, std::move(periodic)));
 }
 
 const RegisterBuilder gauges(BuildPhase::checks, "gauges", build_gauges);

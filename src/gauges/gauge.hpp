@@ -7,6 +7,7 @@
 
 #include "loads/body_acceleration.hpp"
 #include "output/sample.hpp"
+#include "search/neighbours.hpp"
 #include "sph/kernel/kernel_choice.hpp"
 #include "state/reports.hpp"
 
@@ -14,7 +15,7 @@ namespace courant {
 
 struct GaugeBox {
   Vec low = Vec::Zero(), high = Vec::Zero();
-  bool operator==(const GaugeBox& other) const { return low == other.low && high == other.high; }
+  Real distance(const Vec& x) const { return (x - x.cwiseMax(low).cwiseMin(high)).norm(); }
 };
 
 /// What a gauge sees of the world at t^n.
@@ -24,6 +25,7 @@ struct GaugeView {
   const std::vector<RigidBodyMotion>& bodies;
   std::span<const PointForce> forces{};  ///< where a gauge takes them
   BodyAcceleration::At loads{};
+  std::span<const GhostPlane> periodic{};  ///< planes of which the far sides are near, too
   /// Kernel of particle i at a distance r. [1/L^dim]
   Real weight(Index i, Real r) const;
   Real reach(Index i) const { return kernel_support(kernel) * world.particles.h[i]; }
@@ -33,6 +35,12 @@ struct GaugeView {
   /// Position of particle i; in the plane without z.
   Vec position(Index i) const { return flat(world.particles.x.vec(i)); }
   Vec flat(const Vec& x) const { return world.dim == 2 ? Vec(x.x(), x.y(), 0) : x; }
+};
+
+/// A particle near a gauge, and its position there: beyond a periodic plane not that of its field. [L]
+struct NearParticle {
+  Index i;
+  Vec x;
 };
 
 class Gauge {
@@ -45,28 +53,18 @@ class Gauge {
   /// it. None: it needs no particles.
   virtual void cover(const GaugeView& view, std::vector<GaugeBox>& boxes) const = 0;
   virtual bool takes_forces() const { return false; }
-  /// Values in the order of the columns of `layout`. `near`: particles near it, ascending.
-  virtual std::vector<Real> measure(const GaugeView& view, std::span<const Index> near) const = 0;
+  /// Values in the order of the columns of `layout`. `near`: of `particles_near`.
+  virtual std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle> near) const = 0;
 
  private:
   GaugeLayout layout_;
   Real interval_;
 };
 
-class GaugeCells;
-
-/// Finds the particles near gauges. Keeps the grid of their boxes for the next call, in which gauges that do
-/// not move have the same ones.
-class NearParticles {
- public:
-  /// Near each of the gauges, ascending.
-  std::vector<std::vector<Index>> find(const GaugeView& view, std::vector<std::vector<GaugeBox>> boxes);
-
- private:
-  std::vector<std::vector<GaugeBox>> boxes_;
-  Real reach_ = 0;  ///< largest of the particles [L]
-  std::shared_ptr<const GaugeCells> cells_;
-};
+/// Active particles within their kernel's reach of any of the boxes, ascending; behind them those beyond
+/// periodic planes.
+std::vector<NearParticle> particles_near(const GaugeView& view, const Neighbours& neighbours,
+                                         std::span<const GaugeBox> boxes);
 
 /// A straight line from `begin` to `end` [L].
 struct GaugeLine {
@@ -93,8 +91,14 @@ std::unique_ptr<Gauge> make_force_gauge(GaugeLayout layout, Real interval, std::
 /// All gauges of a deck. A pass of no phase: the run calls it when one of them is due.
 class Gauges : public Pass {
  public:
-  Gauges(std::vector<std::unique_ptr<Gauge>> gauges, KernelChoice kernel, BodyAcceleration loads)
-      : gauges_(std::move(gauges)), kernel_(kernel), loads_(std::move(loads)) {}
+  /// `neighbours`: of the particles; null: there are none.
+  Gauges(std::vector<std::unique_ptr<Gauge>> gauges, KernelChoice kernel, BodyAcceleration loads,
+         std::shared_ptr<const Neighbours> neighbours, std::vector<GhostPlane> periodic)
+      : gauges_(std::move(gauges)),
+        kernel_(kernel),
+        loads_(std::move(loads)),
+        neighbours_(std::move(neighbours)),
+        periodic_(std::move(periodic)) {}
   std::string name() const override { return "gauges"; }
   const std::vector<std::unique_ptr<Gauge>>& all() const { return gauges_; }
   /// Those of the given indices, at t^n.
@@ -106,7 +110,8 @@ class Gauges : public Pass {
   std::vector<std::unique_ptr<Gauge>> gauges_;
   KernelChoice kernel_;
   BodyAcceleration loads_;
-  mutable NearParticles near_;
+  std::shared_ptr<const Neighbours> neighbours_;
+  std::vector<GhostPlane> periodic_;
 };
 
 }  // namespace courant

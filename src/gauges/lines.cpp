@@ -37,7 +37,7 @@ class LineGauge : public Gauge {
 class LevelGauge : public LineGauge {
  public:
   using LineGauge::LineGauge;
-  std::vector<Real> measure(const GaugeView& view, std::span<const Index> near) const override {
+  std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle> near) const override {
     const Profile profile = colour(view, near);
     const auto last = static_cast<std::ptrdiff_t>(profile.colour.size()) - 1;
     for (std::ptrdiff_t k = last; k >= 0; --k) {
@@ -61,17 +61,17 @@ class LevelGauge : public LineGauge {
   static Real at(const std::vector<Real>& values, std::ptrdiff_t k) {
     return values[static_cast<std::size_t>(k)];
   }
-  Profile colour(const GaugeView& view, std::span<const Index> near) const {
+  Profile colour(const GaugeView& view, std::span<const NearParticle> near) const {
     constexpr Real steps_per_h = 16, most = 1e6;
     Profile out;
-    for (const Index i : near) out.h = std::max(out.h, view.world.particles.h[i]);
+    for (const auto& [i, x] : near) out.h = std::max(out.h, view.world.particles.h[i]);
     if (out.h == 0) return out;
     const Real steps = std::clamp<Real>(std::ceil(line_.length() * steps_per_h / out.h), 1, most);
     out.step = line_.length() / steps;
     out.colour.assign(static_cast<std::size_t>(steps) + 1, 0);
     out.count.assign(out.colour.size(), 0);
-    for (const Index i : near) {
-      const Vec d = view.position(i) - line_.begin;
+    for (const auto& [i, x] : near) {
+      const Vec d = x - line_.begin;
       const Real along = d.dot(line_.direction()), aside = (d - along * line_.direction()).norm();
       const Real reach = view.reach(i);
       if (aside >= reach) continue;
@@ -110,13 +110,13 @@ class LevelGauge : public LineGauge {
 class RunupGauge : public LineGauge {
  public:
   using LineGauge::LineGauge;
-  std::vector<Real> measure(const GaugeView& view, std::span<const Index> near) const override {
+  std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle> near) const override {
     struct Piece {
       Real from, to, gap;
     };
     std::vector<Piece> pieces;
-    for (const Index i : near) {
-      const Vec d = view.position(i) - line_.begin;
+    for (const auto& [i, x] : near) {
+      const Vec d = x - line_.begin;
       const Real along = d.dot(line_.direction()), dx = view.spacing(i);
       if ((d - along * line_.direction()).norm() > dx) continue;
       if (along < -0.5 * dx || along > line_.length() + 0.5 * dx) continue;

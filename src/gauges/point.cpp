@@ -57,7 +57,7 @@ class PointGauge : public Gauge {
     boxes.push_back({x, x});
   }
 
-  std::vector<Real> measure(const GaugeView& view, std::span<const Index> near) const override {
+  std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle> near) const override {
     const Vec x = position(view);
     std::vector<Real> out(6, std::numeric_limits<Real>::quiet_NaN());
     bool wet = false;
@@ -82,13 +82,15 @@ class PointGauge : public Gauge {
   /// `wet`: whether the point is within the cell of some particle: half the diagonal of a cube, and a little
   /// for particles that are not on a lattice; or in a gap between particles that surround it: sum V W, 0.5
   /// at a surface, is larger there.
-  static std::vector<Seen> look(const GaugeView& view, std::span<const Index> near, const Vec& x, bool& wet) {
+  static std::vector<Seen> look(const GaugeView& view, std::span<const NearParticle> near, const Vec& x,
+                                bool& wet) {
     const Real half = 1.15 * 0.5 * std::sqrt(Real(view.world.dim));
     constexpr Real surrounded = 0.65;
     Real sum = 0;
     std::vector<Seen> seen;
-    for (const Index i : near) {
-      const Vec d = view.position(i) - x;
+    seen.reserve(near.size());
+    for (const auto& [i, at] : near) {
+      const Vec d = at - x;
       const Real r = d.norm();
       if (r >= view.reach(i)) continue;
       seen.push_back({i, d, view.volume(i) * view.weight(i, r)});

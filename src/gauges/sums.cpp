@@ -48,12 +48,12 @@ class FluxGauge : public Gauge {
       }
   }
 
-  std::vector<Real> measure(const GaugeView& view, std::span<const Index> near) const override {
+  std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle> near) const override {
     const Particles& p = view.world.particles;
     Real area = 0, volume = 0, mass = 0, pressure = 0, energy = 0;
     Vec momentum = Vec::Zero();
-    for (const Index i : near) {
-      const Vec at = local_ * (view.position(i) - corner_);
+    for (const auto& [i, x] : near) {
+      const Vec at = local_ * (x - corner_);
       if (!(at[0] >= 0 && at[0] < 1) || (!in_plane_ && !(at[1] >= 0 && at[1] < 1))) continue;
       const Real across = weight_across(view, i, std::abs(at[2]));
       if (across == 0) continue;
@@ -95,7 +95,7 @@ class ForceGauge : public Gauge {
   }
   void cover(const GaugeView&, std::vector<GaugeBox>&) const override {}
   bool takes_forces() const override { return true; }
-  std::vector<Real> measure(const GaugeView& view, std::span<const Index>) const override {
+  std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle>) const override {
     Vec force = Vec::Zero(), moment = Vec::Zero();
     for (const PointForce& one : view.forces) {
       const bool counts = one.segment >= 0 ? faces_[static_cast<std::size_t>(one.segment)] != 0

@@ -17,6 +17,7 @@ namespace courant {
 namespace {
 
 constexpr std::size_t chunk_rows = 1024;                     // what HDF5 packs at a time
+constexpr std::size_t gauge_rows_of_chunk = 256;             // not packed: hundreds of datasets of few rows
 constexpr std::size_t most_buffered = std::size_t{1} << 22;  // numbers, 32 MiB
 
 /// Text of the innermost entry of HDF5's error stack, the one with the system's reason.
@@ -35,9 +36,11 @@ std::string innermost_error() {
   return text.empty() ? "HDF5 failed" : "HDF5 failed: " + text;
 }
 
-/// Of a dataset of a gauge, its name; else empty.
+constexpr std::string_view gauge_group = "/gauges/";
+
+/// Of a dataset of a gauge, by its path without the first '/', its name; else empty.
 std::string gauge_of(const std::string& path) {
-  constexpr std::string_view group = "gauges/";
+  const std::string_view group = gauge_group.substr(1);
   if (!path.starts_with(group)) return "";
   return path.substr(group.size(), path.rfind('/') - group.size());
 }
@@ -161,14 +164,15 @@ class HistoryFile {
   }
 
   hid_t create(const std::string& path, int rank, const hsize_t* size) {
-    const hsize_t longest[] = {H5S_UNLIMITED, size[1]}, chunk[] = {chunk_rows, rank == 1 ? 1 : size[1]};
+    const bool is_of_gauge = path.starts_with(gauge_group);
+    const hsize_t longest[] = {H5S_UNLIMITED, size[1]},
+                  chunk[] = {is_of_gauge ? gauge_rows_of_chunk : chunk_rows, rank == 1 ? 1 : size[1]};
     const double missing = std::numeric_limits<double>::quiet_NaN();
     Hdf5Handle space(H5Screate_simple(rank, size, longest), H5Sclose),
         options(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
     H5Pset_chunk(options, rank, chunk);
     H5Pset_fill_value(options, H5T_NATIVE_DOUBLE, &missing);
-    H5Pset_shuffle(options);
-    H5Pset_deflate(options, 4);
+    if (!is_of_gauge) H5Pset_shuffle(options), H5Pset_deflate(options, 4);
     H5Pset_create_intermediate_group(links, 1);
     return H5Dcreate2(file_, path.c_str(), H5T_IEEE_F64LE, space, links, options, H5P_DEFAULT);
   }
@@ -230,19 +234,21 @@ void History::record(const Sample& sample) {
 void History::record_gauge(const GaugeLayout& layout, Real t, const std::vector<Real>& values) {
   constexpr std::size_t most_rows = 8192;
   OwnRows& own = gauges_[layout.name];
-  if (own.columns.empty()) {
-    const std::string group = "/gauges/" + layout.name;
-    if (!layout.title.empty()) titles_[group] = layout.title;
-    own.columns.push_back({group + "/time", {"T", 1, {}}});
-    for (const GaugeLayout::Column& column : layout.columns)
-      own.columns.push_back({group + "/" + column.name, {column.dimension, column.components, {}}});
-  }
-  const Real* value = &t;
-  for (auto& [path, c] : own.columns) {
-    c.values.insert(c.values.end(), value, value + c.components);
-    value = value == &t ? values.data() : value + c.components;
-  }
+  if (own.layout.columns.empty()) own.layout = layout;
+  own.values.push_back(t);
+  own.values.insert(own.values.end(), values.begin(), values.end());
   if (++own.rows >= most_rows || std::chrono::steady_clock::now() - last_flush_ >= wait_) flush();
+}
+
+std::vector<double> History::OwnRows::columns(std::size_t first, std::size_t count) const {
+  const std::size_t width = values.size() / rows;
+  std::vector<double> out;
+  out.reserve(rows * count);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double* const begin = values.data() + row * width + first;
+    out.insert(out.end(), begin, begin + count);
+  }
+  return out;
 }
 
 std::map<std::string, std::int64_t> History::gauge_rows() const {
@@ -253,8 +259,7 @@ std::map<std::string, std::int64_t> History::gauge_rows() const {
 
 std::size_t History::bytes_buffered() const {
   std::size_t numbers = 0;
-  for (const auto& [name, own] : gauges_)
-    for (const auto& [path, c] : own.columns) numbers += c.values.size();
+  for (const auto& [name, own] : gauges_) numbers += own.values.size();
   for (const auto& [path, c] : columns_) numbers += c.values.size();
   return sizeof(double) * numbers;
 }
@@ -285,15 +290,21 @@ void History::flush() {
   }
   for (auto& [name, own] : gauges_) {
     if (own.rows == 0) continue;
-    for (auto& [path, c] : own.columns) {
-      h5.append(path, c.dimension, c.components, c.values, own.rows_in_file);
-      c.values.clear();
-    }
-    own.rows_in_file += own.rows, own.rows = 0;
+    const std::string group = std::string(gauge_group) + name;
+    std::size_t first = 0;
+    const auto append = [&](const std::string& column, const std::string& dimension, int components) {
+      const auto count = static_cast<std::size_t>(components);
+      h5.append(group + "/" + column, dimension, components, own.columns(first, count), own.rows_in_file);
+      first += count;
+    };
+    append("time", "T", 1);
+    for (const GaugeLayout::Column& c : own.layout.columns) append(c.name, c.dimension, c.components);
+    if (!own.layout.title.empty()) titles_[group] = own.layout.title;
   }
   for (const auto& [group, title] : titles_) h5.set_title(group, title);
   write_checked(file_, h5.image());
   for (auto& [path, c] : columns_) c.values.clear();
+  for (auto& [name, own] : gauges_) own.rows_in_file += own.rows, own.rows = 0, own.values.clear();
   rows_in_file_ += rows_;
   rows_ = 0;
   // A large file takes long to write again: not more than a hundredth of the time goes there.

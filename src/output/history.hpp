@@ -59,8 +59,11 @@ class History {
   };
   /// Of one gauge.
   struct OwnRows {
-    std::vector<std::pair<std::string, Column>> columns;  // path, values
+    GaugeLayout layout;
+    std::vector<double> values;  // shape: (buffered rows, 1 + numbers of the gauge), time first
     std::size_t rows = 0, rows_in_file = 0;
+    /// Numbers [first, first + count) of each row.
+    std::vector<double> columns(std::size_t first, std::size_t count) const;
   };
   void put(const std::string& path, const char* dimension, double value);
   void put(const std::string& path, const char* dimension, const Vec& value);

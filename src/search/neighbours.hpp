@@ -119,6 +119,17 @@ class Neighbours {
   /// as of the last rebuild, and such ghosts of those added before.
   void add_active_near(const World& world, Index first, Index count, std::vector<Index>& to) const;
 
+  /// Calls `visit(begin, end)` with ranges of active particles that hold all within their support of the box
+  /// low..high [L].
+  template <class Visit>
+  void active_near(const Vec& low, const Vec& high, const Visit& visit) const {
+    if (active_start_.empty()) return;
+    grid_.near(low, high, support_ * h_max_ + skin_, [&](Index first, Index last) {
+      const Index begin = active_start_[first], end = active_start_[last + 1];
+      if (begin < end) visit(begin, end);
+    });
+  }
+
   /// Others within support max(h_i, h_j) of particle i, active here. For tests and reports: slow.
   std::vector<Index> of(const Particles& p, Index i) const;
 

@@ -22,13 +22,15 @@ const RegisterKeyword<WaveMakerCard> wave_maker_keyword{courant_wave_maker_table
 class WaveMakerBuilder {
  public:
   WaveMakerBuilder(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
-                   const SphSettings& settings, std::shared_ptr<RigidBodies>& bodies)
+                   const SphSettings& settings, std::shared_ptr<RigidBodies>& bodies,
+                   const std::shared_ptr<Neighbours>& neighbours)
       : deck_(deck),
         model_(model),
         world_(world),
         diagnostics_(diagnostics),
         settings_(settings),
-        bodies_(bodies) {}
+        bodies_(bodies),
+        neighbours_(neighbours) {}
 
   void add(const WaveMakerCard& c) {
     const int before = diagnostics_.errors();
@@ -41,7 +43,7 @@ class WaveMakerBuilder {
     check_free(c, bodies_->bodies()[body], s.paddle);
     if (s.paddle.kind == Paddle::Kind::flap) check_flap(c, s.paddle);
     if (diagnostics_.errors() > before) return;
-    world_.passes.add(make_wave_maker(std::move(s), bodies_, body, settings_.kernel));
+    world_.passes.add(make_wave_maker(std::move(s), bodies_, body, settings_.kernel, neighbours_));
   }
 
  private:
@@ -98,18 +100,61 @@ class WaveMakerBuilder {
     if (!(g > 0))
       return error(c, "G", "no body load at the start acts downwards", "give G, which absorption needs");
     constexpr Real least = 1e-12;
+    s.g = g;
     s.gain = c.absorb * s.paddle.long_wave_gain(g);
-    s.distance = c.dist;
-    if (s.distance == 0 && world_.particles.size() > 0)
-      s.distance = maximum(world_.particles.size(), [&](Index i) { return world_.particles.h[i]; });
+    s.distance = distance(c);
     // a wave that comes back is at the level DIST/c before it is at the paddle
     s.filter = c.tau > 0 ? c.tau : s.distance / std::sqrt(g * c.d);
     s.most = c.xmax > 0 ? c.xmax : c.d;
+    check_level(c, s);
     if (s.drift > 0 && s.drift * s.gain < 1 + least)
       deck_.warning(
           diagnostics_, c, "TDRIFT",
           fmt::format("drift goes back within {:g}, faster than absorption acts, {:g}", s.drift, 1 / s.gain),
           "a few periods of the waves leave absorption as it is");
+  }
+
+  /// A paddle within the kernel's reach cuts colours at and below the surface: alike where it is upright, but
+  /// where it leans the level is too high or too low by that.
+  Real distance(const WaveMakerCard& c) {
+    const Particles& p = world_.particles;
+    const Real h = p.size() > 0 ? maximum(p.size(), [&](Index i) { return p.h[i]; }) : 0;
+    const Real least = c.kind == 1 ? kernel_support(settings_.kernel) * h : h;
+    if (c.dist == 0) return least;
+    if (c.kind == 1 && c.dist < least)
+      deck_.warning(diagnostics_, c, "DIST",
+                    fmt::format("the level is measured {:g} from the flap, within the {:g} that the kernel "
+                                "reaches: an inclined flap changes it",
+                                c.dist, least),
+                    "leave DIST 0, or make it larger");
+    return c.dist;
+  }
+
+  /// The water that the paddle would measure at the start.
+  void check_level(const WaveMakerCard& c, const WaveMakerSettings& s) {
+    const Particles& p = world_.particles;
+    const Paddle& paddle = s.paddle;
+    Real top = -std::numeric_limits<Real>::infinity(), spacing = 0;
+    for (Index i = 0; i < p.size(); ++i) {
+      Vec at = p.x.vec(i) - paddle.bed;
+      if (world_.dim == 2) at.z() = 0;
+      const Real along = at.dot(paddle.along) - s.distance, aside = at.dot(paddle.axis());
+      if (std::max(std::abs(along), std::abs(aside)) > p.h[i]) continue;
+      const Real V = p.m[i] / p.rho[i], dx = world_.dim == 2 ? std::sqrt(V) : std::cbrt(V);
+      top = std::max(top, at.dot(paddle.up) + 0.5 * dx), spacing = std::max(spacing, dx);
+    }
+    if (spacing == 0)
+      return error(c, "DIST",
+                   fmt::format("there is no water {:g} in front of the paddle, where it measures the level",
+                               s.distance),
+                   "check X, Y, Z, the direction VX, VY, VZ and DIST");
+    constexpr Real some = 1.5;  // spacings
+    if (std::abs(top - c.d) > some * spacing)
+      deck_.warning(diagnostics_, c, "D",
+                    fmt::format("the water at the paddle is {:.4g} deep at the start, D is {:g}: absorption "
+                                "moves the paddle until they are equal",
+                                top, c.d),
+                    "D is the depth of the still water above X, Y, Z");
   }
 
   std::size_t body_of(const WaveMakerCard& c) {
@@ -143,12 +188,6 @@ class WaveMakerBuilder {
                 "direction there",
                 lowest, c.hinge),
             "let the paddle begin at the hinge, above a wall that is held");
-    if (c.absorb > 0)
-      deck_.warning(
-          diagnostics_, c, "ABSORB",
-          "the level before an inclined paddle is measured too high, so that a flap that absorbs leans "
-          "back more and more, by 0.7 D in ten periods of small waves",
-          "let a piston absorb, or give TDRIFT and look at the displacement");
   }
 
   void check_free(const WaveMakerCard& c, const RigidBody& body, const Paddle& p) {
@@ -173,11 +212,13 @@ class WaveMakerBuilder {
   Diagnostics& diagnostics_;
   const SphSettings& settings_;
   std::shared_ptr<RigidBodies>& bodies_;
+  std::shared_ptr<Neighbours> neighbours_;
 };
 
 void build_wave_makers(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
-                       const SphSettings& settings, std::shared_ptr<RigidBodies>& bodies) {
-  WaveMakerBuilder builder(deck, model, world, diagnostics, settings, bodies);
+                       const SphSettings& settings, std::shared_ptr<RigidBodies>& bodies,
+                       const std::shared_ptr<Neighbours>& neighbours) {
+  WaveMakerBuilder builder(deck, model, world, diagnostics, settings, bodies, neighbours);
   for (const WaveMakerCard& card : deck.all<WaveMakerCard>()) builder.add(card);
 }
 

@@ -3,6 +3,7 @@
 #include "base/real.hpp"
 #include "model/model.hpp"
 #include "rigid/bodies/rigid.hpp"
+#include "search/neighbours.hpp"
 #include "sph/kernel/kernel_choice.hpp"
 
 namespace courant {
@@ -33,6 +34,7 @@ struct WaveMakerSettings {
   Paddle paddle;
   Curve displacement, elevation;  ///< empty: none
   Real sf = 1;
+  Real g = 1;                  ///< gravity, where it absorbs [L/T2]
   Real gain = 0;               ///< velocity over the missing elevation; 0: no absorption [1/T]
   Real distance = 0;           ///< of the measured level from the paddle [L]
   Real filter = 0, drift = 0;  ///< time constants; 0: none [T]
@@ -42,6 +44,7 @@ struct WaveMakerSettings {
 /// Moves body `body` of `bodies` in all directions that are not held. Throws RunError where there is no water
 /// at the paddle, or where absorption goes beyond its limit.
 std::shared_ptr<Pass> make_wave_maker(WaveMakerSettings settings, std::shared_ptr<RigidBodies> bodies,
-                                      std::size_t body, KernelChoice kernel);
+                                      std::size_t body, KernelChoice kernel,
+                                      std::shared_ptr<const Neighbours> neighbours);
 
 }  // namespace courant

@@ -48,7 +48,7 @@ write("long", TSSFAC, runrsf=0, end=END)
 code, text = call("run", "long.k", "-o", "long", "--threads", "1")
 file = "long/restart/before_error.h5"
 check(code == 2 and os.listdir("long/restart") == ["before_error.h5"], f"a stop in error leaves a restart file -> {code} {os.listdir('long/restart')}")
-told = re.search(r"before_error.h5 has the state at time (\S+), cycle (\d+),.* with a smaller TSSFAC in the deck: courant (run long.k -o long --restart " + file + ")", text)
+told = re.search(r"before_error.h5 has the state at time (\S+), cycle (\d+),.* to go on with a smaller TSSFAC in the deck: courant (run long.k -o long --restart " + file + ")", text)
 holds(told is not None and int(told.group(2)) == cycle_of(file), "and names it", text)
 if failures:
     sys.exit(1)

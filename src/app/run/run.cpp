@@ -218,11 +218,10 @@ class Run {
     const std::string file = restart_file(before_error).string();
     histories_.finish();  // its samples belong to the state
     write_restart_file(file, copy->state, copy->cycle);
-    failure_ += fmt::format(
-        "\n     {} has the state at time {:.6g}, cycle {}, which the guard had found sane; to go on from it "
-        "with "
-        "a smaller TSSFAC in the deck: {}",
-        file, copy->t, copy->cycle, call_to_go_on(summary_.deck, options_, file));
+    const char* const what = facts_.cause == StopCause::other ? "repeat the last steps"
+                                                              : "go on with a smaller TSSFAC in the deck";
+    failure_ += fmt::format("\n     {} has the state at time {:.6g}, cycle {}, a sound one; to {}: {}", file,
+                            copy->t, copy->cycle, what, call_to_go_on(summary_.deck, options_, file));
     if (newest_restart_.empty() || copy->cycle > kept_cycle_) newest_restart_ = file;
   }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -35,25 +36,32 @@ std::string gauge_head(const GaugeLayout& layout) {
   return out + "\n";
 }
 
-constexpr std::size_t most_waiting = 4096;  // bytes
+constexpr std::size_t most_waiting = 1 << 16;        // bytes of a gauge
+constexpr std::chrono::seconds longest_waiting(10);  // of rows of gauges
 
-const GaugeSample& gauge_of(const Sample& sample, std::size_t number) {
-  for (const GaugeSample& one : sample.gauges)
-    if (one.gauge == number) return one;
+/// `from`: where it is looked for first, as gauges are written in the order of the sample.
+const GaugeSample& gauge_of(const Sample& sample, std::size_t number, std::size_t& from) {
+  const std::size_t n = sample.gauges.size();
+  for (std::size_t k = 0; k < n; ++k)
+    if (const GaugeSample& one = sample.gauges[(from + k) % n]; one.gauge == number) {
+      from += k + 1;
+      return one;
+    }
   throw std::out_of_range(fmt::format("no values of gauge {}", number));
 }
 
-std::string gauge_text(const Sample& sample, std::size_t number) {
-  std::string out = fmt::format("{:.9g}", sample.t);
-  for (const Real value : gauge_of(sample, number).values) out += fmt::format(",{:.9g}", value);
-  return out + "\n";
+void add_row(const Sample& sample, const std::vector<Real>& values, std::string& to) {
+  fmt::memory_buffer row;
+  fmt::format_to(std::back_inserter(row), "{:.9g}", sample.t);
+  for (const Real value : values) fmt::format_to(std::back_inserter(row), ",{:.9g}", value);
+  row.push_back('\n');
+  to.append(row.data(), row.size());
 }
 
 }  // namespace
 
 void HistoryRequests::ask_gauge(std::size_t number, GaugeLayout layout, Real interval) {
-  Request request{.file = {.name = fmt::format("{}/{}.csv", result_names::gauges, layout.name),
-                           .text = [number](const Sample& s, Real) { return gauge_text(s, number); }},
+  Request request{.file = {.name = fmt::format("{}/{}.csv", result_names::gauges, layout.name)},
                   .schedule = OutputSchedule(interval),
                   .gauge = number,
                   .layout = std::move(layout)};
@@ -230,35 +238,45 @@ std::vector<std::size_t> Histories::due_gauges(const Due& due) const {
 
 void Histories::write(const Sample& sample, const Due& due) {
   if (!first_potential_ && needs_whole_sample(due)) first_potential_ = sample.energy.potential;
+  std::size_t next_gauge = 0;
   for (std::size_t i = 0; i < files_.size(); ++i)
-    if (due[i]) write(files_[i], sample);
+    if (due[i] && files_[i].gauge)
+      write_gauge(files_[i], sample, next_gauge);
+    else if (due[i])
+      write(files_[i], sample);
   if (h5_ && due.back()) h5_->record(sample);
+  if (std::chrono::steady_clock::now() - last_waiting_ >= longest_waiting) write_all_waiting();
 }
 
 void Histories::write(Ascii& to, const Sample& sample) {
-  const std::string text = to.file ? to.text(sample, first_potential_.value_or(0)) : std::string();
-  if (to.gauge)
-    write_waiting(to, text, most_waiting);
-  else if (to.file)
-    to.file->write(text);
-  if (to.gauge && h5_) h5_->record_gauge(to.layout, sample.t, gauge_of(sample, *to.gauge).values);
+  if (to.file) to.file->write(to.text(sample, first_potential_.value_or(0)));
   if (!to.numbers) return;
   HistoryNumbers numbers;
   to.numbers(sample, first_potential_.value_or(0), numbers);
   binout_->write(to.name, sample.t, sample.cycle, numbers, to.legend);
 }
 
+void Histories::write_gauge(Ascii& to, const Sample& sample, std::size_t& next) {
+  const std::vector<Real>& values = gauge_of(sample, *to.gauge, next).values;
+  add_row(sample, values, to.waiting);
+  if (to.waiting.size() >= most_waiting) write_waiting(to);
+  h5_->record_gauge(to.layout, sample.t, values);
+}
+
 // Many gauges at short intervals would else spend more time in calls of the system than in their sums.
-void Histories::write_waiting(Ascii& to, const std::string& text, std::size_t most) {
-  to.waiting += text;
-  if (to.waiting.empty() || to.waiting.size() < most) return;
+void Histories::write_waiting(Ascii& to) {
+  if (to.waiting.empty()) return;
   to.file->write(to.waiting);
   to.waiting.clear();
 }
 
+void Histories::write_all_waiting() {
+  for (Ascii& file : files_) write_waiting(file);
+  last_waiting_ = std::chrono::steady_clock::now();
+}
+
 void Histories::finish() {
-  for (Ascii& file : files_)
-    if (file.gauge) write_waiting(file, "", 0);
+  write_all_waiting();
   if (h5_) h5_->flush();
 }
 

@@ -112,7 +112,9 @@ class Histories {
     Real last = -1;       // time of the last state
   };
   void write(Ascii& to, const Sample& sample);
-  void write_waiting(Ascii& to, const std::string& text, std::size_t most);
+  void write_gauge(Ascii& to, const Sample& sample, std::size_t& next);
+  void write_waiting(Ascii& to);
+  void write_all_waiting();
 
   std::filesystem::path dir_;
   std::vector<Ascii> files_;
@@ -122,6 +124,7 @@ class Histories {
   Real h5_last_ = -1;
   std::optional<Real> first_potential_;
   std::vector<std::string> lost_;
+  std::chrono::steady_clock::time_point last_waiting_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace courant

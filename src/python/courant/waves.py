@@ -70,25 +70,58 @@ def flap_transfer(kd: np.ndarray | float, hinge: float = 0.0) -> np.ndarray:
     return 4 * np.sinh(k) * (np.sinh(k) - (np.cosh(k) - lowest) / (k * (1 - hinge))) / (np.sinh(2 * k) + 2 * k)
 
 
+def _evanescent(omega: np.ndarray | float, depth: float, g: float, terms: int) -> np.ndarray:
+    """k d of the modes that fade from the paddle: omega^2 d/g = - k d tan(k d), one in each (j - 1/2) pi to j pi. (frequencies, terms) [-]"""
+    ratio = np.atleast_1d(np.asarray(omega, dtype=float)) ** 2 * depth / g
+    j = np.arange(1, terms + 1)[None]
+    low, high = (j - 0.5) * math.pi + 0 * ratio[:, None], j * math.pi + 0 * ratio[:, None]
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        above = middle * np.sin(middle) + ratio[:, None] * np.cos(middle)
+        upper = np.sign(above) == np.sign(high * np.sin(high) + ratio[:, None] * np.cos(high))
+        low, high = np.where(upper, low, middle), np.where(upper, middle, high)
+    return 0.5 * (low + high)
+
+
 def near_field(omega: np.ndarray | float, depth: float, g: float = 9.81, hinge: float | None = None, terms: int = 200) -> np.ndarray:
     """Elevation beside the paddle that does not travel, over the displacement at the still level: the sum of the evanescent modes.
     `hinge`: of a flap, above the bed [L]; None: a piston.
 
     Source: Biesel and Suquet (1951); Dean and Dalrymple (1991), section 6.3.
     """
-    ratio = np.atleast_1d(np.asarray(omega, dtype=float)) ** 2 * depth / g
-    j = np.arange(1, terms + 1)[None]
-    low, high = (j - 0.5) * math.pi + 0 * ratio[:, None], j * math.pi + 0 * ratio[:, None]
-    for _ in range(60):  # k d of ratio = - k d tan(k d), one in each of these intervals
-        middle = 0.5 * (low + high)
-        above = middle * np.sin(middle) + ratio[:, None] * np.cos(middle)
-        upper = np.sign(above) == np.sign(high * np.sin(high) + ratio[:, None] * np.cos(high))
-        low, high = np.where(upper, low, middle), np.where(upper, middle, high)
-    k = 0.5 * (low + high)
+    k = _evanescent(omega, depth, g, terms)
     shape = np.sin(k)
     if hinge is not None:
         shape = shape + (np.cos(k) - np.cos(k * max(hinge, 0.0) / depth)) / (k * (1 - hinge / depth))
     return (4 * np.sin(k) * shape / (2 * k + np.sin(2 * k))).sum(axis=1)
+
+
+def second_order_piston(omega: float, depth: float, half_stroke: float, g: float = 9.81, terms: int = 100) -> complex:
+    """X2 of the displacement Re(X2 exp(-2 i omega t)) beside half_stroke sin(omega t), with which no free wave of 2 omega leaves a piston. [L]
+
+    The modes Re(a_j cosh k_j(z + d)/cosh(k_j d) exp(i k_j x - i omega t)), one that travels and those that fade, force a bound potential
+    of second order for each pair. The kinematic condition on the moved paddle adds free waves; X2 makes the one that travels 0.
+    In the limit of long waves it is that of Madsen, J. Geophys. Res. 76 (1971), eq. 27; at k d = 0.9 it is twice as large.
+    Source: Schaffer, Ocean Eng. 23 (1996), sections 2 to 4.
+    """
+    k = np.concatenate([wave_number(np.array([omega]), depth, g) + 0j, 1j * _evanescent(omega, depth, g, terms)[0] / depth])
+    free = float(wave_number(2 * omega, depth, g))
+    stroke, ratio = 1j * half_stroke, omega**2 / g
+    tanh = np.tanh(np.minimum(k.real * depth, _DEEPEST) + 1j * k.imag * depth)
+    sech2 = 1 - tanh**2
+    a = -omega * stroke * tanh / (k**2 * (depth / 2 * sech2 + tanh / (2 * k)))
+    both = k[:, None] + k[None]
+    tanh_both = np.tanh(np.minimum(both.real * depth, _DEEPEST) + 1j * both.imag * depth)
+    forced = 1j * omega * a[:, None] * a[None] * (1.5 * ratio**2 - k[:, None] * k[None] - (k[:, None] ** 2 + k[None] ** 2) / 4)
+    bound = forced / (-4 * omega**2 + g * both * tanh_both)
+    tanh_free = math.tanh(min(free * depth, _DEEPEST))
+
+    def in_free(q: np.ndarray, tanh_q: np.ndarray) -> np.ndarray:
+        """Integral over the depth of cosh q(z + d)/cosh(q d) times the free mode, over cosh(free d)."""
+        return (q * tanh_q - free * tanh_free) / (q**2 - free**2)
+
+    moved = 0.5 * stroke * (a * k**2 * in_free(k, tanh)).sum() - (1j * both * bound * in_free(both, tanh_both)).sum()
+    return complex(moved * free / (2j * omega * tanh_free))
 
 
 def breaking_height(wave: float, depth: float) -> float:
@@ -272,7 +305,7 @@ class Waves:
             # the elevation at a piston goes with its velocity
             x += s * np.sin(omega * t - phase)
         if self.kind == "second_order":
-            x += self._second_order() * np.sin(2 * self.omega * t)
+            x += (self._second_order() * np.exp(-2j * self.omega * t)).real
         x *= self._growth(t)
         return np.column_stack([t, x - x[0]])
 
@@ -308,15 +341,12 @@ class Waves:
             raise WaveFault(f"the displacement would have {intervals:.3g} rows; {_MOST_ROWS:.0e} are the limit", hint="longer waves, or an earlier end")
         return np.linspace(0, end, math.ceil(intervals) + 1)
 
-    def _second_order(self) -> float:
-        """Amplitude of the harmonic that suppresses the free second harmonic. Source: Madsen, J. Geophys. Res. 76 (1971), eq. 27. [L]"""
-        kd = self.wave * self.depth
-        m = float(piston_transfer(kd))
+    def _second_order(self) -> complex:
+        """Complex amplitude X2 of the displacement Re(X2 exp(-2 i omega t)) that suppresses the free second harmonic. [L]"""
         ursell = self.height * (2 * math.pi / self.wave) ** 2 / self.depth**3
         if ursell > 8 * math.pi**2 / 3:
             raise WaveFault(f"H L^2/d^3 is {ursell:.3g}: second order holds up to {8 * math.pi**2 / 3:.3g}; make the waves lower or shorter", "height")
-        grows = min(kd, _DEEPEST)
-        return self.height**2 / (32 * self.depth) * (3 * math.cosh(grows) / math.sinh(grows) ** 3 - 2 / m)
+        return second_order_piston(self.omega, self.depth, self.height / 2 / float(self.transfer(self.wave * self.depth)), self.g)
 
     def _solitary(self) -> tuple[float, float]:
         return math.sqrt(0.75 * self.height / self.depth**3), math.sqrt(self.g * (self.depth + self.height))

@@ -86,6 +86,28 @@ TEST(WaveMaker, FlapTurnsAboutItsHinge) {
   }
 }
 
+// The line of the level leans with the flap: its height counts, not its length. The paddle touches nothing,
+// so that the surface stays as it is.
+TEST(WaveMaker, ALeaningFlapMeasuresTheLevelOfTheWater) {
+  for (const Real far : {0.15, -0.15}) {
+    SmallScene scene{.n = 8};
+    scene.extra = paddle_cards("2,1,21,1.,12,0.8\n0.,0.,0.,1.,0.,0.\n1.,0.45,0.0001,0.,0.5");
+    scene.extra += fmt::format("*DEFINE_CURVE\n21\n0.,0.\n0.002,{0}\n1.,{0}\n", far);
+    auto s = build_deck(scene.text(), false);
+    ASSERT_TRUE(s);
+    test::run(*s, 0.004);
+    const RigidBody& b = paddle_of(*s);
+    const auto displacement = [&] {
+      const Vec up = b.q * Vec::UnitY();
+      return 0.8 * up.x() / up.y();
+    };
+    const Real before = displacement(), start = s->clock().t;
+    test::run(*s, 0.014);
+    const Real missing = (displacement() - before) / (2 * std::sqrt(9.81 / 0.8) * (s->clock().t - start));
+    EXPECT_NEAR(missing, 0, 0.005) << far;
+  }
+}
+
 // A level that is too low calls the paddle towards the water, one that is too high moves it back.
 TEST(WaveMaker, AbsorbsTowardsTheLevelThatItShouldHave) {
   for (const Real depth : {0.7, 0.5}) {
@@ -111,13 +133,17 @@ TEST(WaveMaker, DriftGoesBack) {
   EXPECT_GT(moved[1], 0);
 }
 
-TEST(WaveMaker, StopsBeyondItsLimitAndWithoutWater) {
+TEST(WaveMaker, StopsBeyondItsLimit) {
   auto far = scene_with("2,0,0,1.,12,0.9\n0.,0.,0.,1.,0.,0.\n1.,0.2,0.001,0.,0.002");
   ASSERT_TRUE(far);
   EXPECT_THROW(test::run(*far, 0.1), RunError);
-  auto dry = scene_with("2,0,0,1.,12,0.6\n0.,0.,0.,1.,0.,0.\n1.,3.");
-  ASSERT_TRUE(dry);
-  EXPECT_THROW(test::run(*dry, 0.01), RunError);
+}
+
+// The curve draws the paddle out of the water.
+TEST(WaveMaker, StopsWithoutWater) {
+  auto s = scene_with("2,0,11,-100.,12,0.6\n0.,0.,0.,1.,0.,0.\n1.,0.,0.,0.,9.");
+  ASSERT_TRUE(s);
+  EXPECT_THROW(test::run(*s, 0.1), RunError);
 }
 
 TEST(WaveMaker, HasTheSameBitsOnAnyNumberOfThreads) {
@@ -136,6 +162,40 @@ TEST(WaveMaker, HasTheSameBitsOnAnyNumberOfThreads) {
 
 // Nothing else acts along x on a paddle that touches nothing: its work is its kinetic energy, and from
 // outside.
+/// Warnings of a deck that is accepted.
+std::string warned(const std::string& maker) {
+  SmallScene scene;
+  scene.extra = paddle_cards(maker);
+  Diagnostics diagnostics;
+  EXPECT_NE(Simulation::build("deck.k", in_memory(scene.text()), diagnostics), nullptr);
+  return diagnostics.text();
+}
+
+TEST(WaveMaker, WarnsOfALevelThatIsNotThatOfTheWater) {
+  using testing::HasSubstr, testing::Not;
+  const std::string at = "\n0.,0.,0.,1.,0.,0.\n1.,0.2,0.001,0.,0.5";
+  for (const std::string depth : {"0.9", "0.3"})
+    EXPECT_THAT(warned("2,0,0,1.,12," + depth + at),
+                HasSubstr("the water at the paddle is 0.6 deep at the start"));
+  EXPECT_THAT(warned("2,0,0,1.,12,0.65" + at), Not(HasSubstr("at the paddle is")));
+  // within the support of the kernel an inclined flap changes the level
+  EXPECT_THAT(warned("2,1,0,1.,12,0.6" + at), HasSubstr("an inclined flap changes it"));
+  EXPECT_THAT(warned("2,1,0,1.,12,0.6\n0.,0.,0.,1.,0.,0.\n1."), Not(HasSubstr("an inclined flap")));
+}
+
+// Constant levels move it away, and it comes back: the mean displacement ends at that of the curve.
+TEST(WaveMaker, AMeanDifferenceOfLevelsDoesNotKeepItAway) {
+  auto s = scene_with("2,0,0,1.,12,0.65\n0.,0.,0.,1.,0.,0.\n1.,0.2,0.0001,0.004,5.");
+  ASSERT_TRUE(s);
+  Real farthest = 0;
+  for (const Real until : {0.004, 0.008, 0.012, 0.016, 0.02, 0.024, 0.028, 0.032}) {
+    test::run(*s, until);
+    farthest = std::max(farthest, paddle_of(*s).x.x());
+  }
+  EXPECT_GT(farthest, 1e-5);
+  EXPECT_LT(std::abs(paddle_of(*s).x.x()), 0.1 * farthest);
+}
+
 TEST(WaveMaker, BooksItsWork) {
   auto s = scene_with("2,0,11,1.,0,0.6\n0.,0.,0.,1.,0.,0.");
   ASSERT_TRUE(s);
@@ -162,6 +222,9 @@ TEST(WaveMaker, RefusesWhatItCannotDo) {
   EXPECT_THAT(refused("2,0,0,1.,0,0.6" + at), HasSubstr("neither follows a curve nor absorbs"));
   EXPECT_THAT(refused("2,0,11,1.,12,0.6" + at), HasSubstr("no effect without ABSORB"));
   EXPECT_THAT(refused("2,0,11,1.,0,0.6" + at + "\n1."), HasSubstr("takes the waves of the paddle itself"));
+  EXPECT_THAT(refused("2,0,0,1.,12,0.6" + at + "\n1.,3."), HasSubstr("there is no water 3 in front of"));
+  EXPECT_THAT(refused("2,0,0,1.,12,0.6\n0.,0.,0.,-1.,0.,0.\n1.,0.2"),
+              HasSubstr("check X, Y, Z, the direction"));
   EXPECT_THAT(refused("2,0,11,1.,0,0.6,,0.1" + at), HasSubstr("a piston has no hinge"));
   EXPECT_THAT(refused("2,1,11,1.,0,0.6,,0.2" + at), HasSubstr("would turn the other direction"));
   EXPECT_THAT(refused("2,1,11,1.,0,0.6,,0.7" + at), HasSubstr("not below the still level"));
