@@ -86,7 +86,8 @@ Erosion::Erosion(const FailureRules& rules, const ElementGroup& group, int point
       v_(&world.nodes.v),
       w_(shared_fields::angular_velocity.find(world.nodes.fields)),
       eroded_(shared_fields::eroded.add(group.fields)),
-      failed_(group.fields.add<Index>({.name = "failed_points", .dimension = "-", .components = points})) {
+      failed_(group.fields.add<Index>(
+          {.name = "failed_points", .dimension = "-", .components = points, .may_begin_later = true})) {
   if (rules.measures_strain())
     strain_ =
         &group.fields.add<Real>({.name = "strain_of_points", .dimension = "-", .components = 6 * points});

@@ -26,6 +26,7 @@ struct FieldInfo {
   bool output = false;    ///< written to the field files
   bool restart = true;    ///< needed to continue a run bitwise
   bool exchange = false;  ///< neighbours that are copies of entities elsewhere (ghost particles) have it, too
+  bool may_begin_later = false;  ///< 0 where a restart file lacks it
 };
 
 class FieldBase : public Resource {

@@ -1,6 +1,5 @@
 #include "state/restartable.hpp"
 
-#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -19,22 +18,12 @@ bool keep_field(FieldBase& field, Index n, Archive& archive) {
   return true;
 }
 
-/// Whether the state has a field. Deletions that begin when a run goes on bring indices that it lacks, which
-/// are 0 until then.
-bool has_field(const FieldBase& field, Index n, const Archive& archive) {
-  if (!archive.loading() || archive.has(field.info().name)) return true;
-  const auto* values = dynamic_cast<const Field<Index>*>(&field);
-  for (int k = 0; values && k < field.info().components; ++k)
-    if (std::any_of(values->data(k), values->data(k) + n, [](Index value) { return value != 0; }))
-      return true;
-  return !values;
-}
-
 /// The first n of each field.
 void keep_fields(const std::string& group, FieldSet& fields, Index n, Archive& archive) {
   const Archive::Group inside(archive, group);
   for (const auto& field : fields.all()) {
-    if (!field->info().restart || !has_field(*field, n, archive)) continue;
+    const FieldInfo& info = field->info();
+    if (!info.restart || (archive.loading() && info.may_begin_later && !archive.has(info.name))) continue;
     if (!keep_field<Real>(*field, n, archive) && !keep_field<Id>(*field, n, archive) &&
         !keep_field<Index>(*field, n, archive))
       throw std::logic_error("field '" + field->info().name + "' has a type that restart files do not know");

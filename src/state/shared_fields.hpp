@@ -56,7 +56,7 @@ inline const SharedField<Real> support_moment{
 /// Nodes: the part of their mass that mass scaling added [M].
 inline const SharedField<Real> added_mass{{.name = "added_mass", .dimension = "M", .output = true}};
 /// Elements and faces: 0 there, else one of the values below. Only where elements may fail.
-inline const SharedField<Index> eroded{{.name = "eroded", .dimension = "-"}};
+inline const SharedField<Index> eroded{{.name = "eroded", .dimension = "-", .may_begin_later = true}};
 inline constexpr Index deleted = 1;
 inline constexpr Index hidden = 2;  ///< an inner face of solids, which deletion may expose
 /// Faces of shells: thickness for contact. Only where it differs from that of the shells.
