@@ -107,13 +107,13 @@ class DamagedConcrete : public StrengthLaw {
     return (1 - share) * (*c_.rates)(-rate) + share * (*c_.rates)(rate);
   }
   /// Of shear, by a bulk modulus between those of loading, on the curve, and of unloading: Malvar and others
-  /// 1997. `least`: the pressure at which a crack opens.
-  Real shear_at(const Pressures& pressures, Real e, Real least) const {
+  /// 1997.
+  Real shear_at(const Pressures& pressures, Real e) const {
     const Real gone = std::max(pressures.most - e, Real(0));
-    const Real room = std::max(pressures(e) - least, Real(0)) / pressures.back;
-    const Real phi = gone > 0 ? gone / (gone + room) : 0;
+    const Real left = std::max(pressures(e) + c_.surfaces.tension(), Real(0)) / pressures.back;
+    const Real phi = gone > 0 ? gone / (gone + left) : 0;
     constexpr Real fast = 5.55;
-    const Real loading = c_.C.slope(std::max(pressures.most, Real(0)));
+    const Real loading = c_.C.slope(pressures.most);
     return shear_ * (pressures.back + (loading - pressures.back) * std::exp(-fast * phi));
   }
   /// d lambda over that of plastic strain at pressure p. [-]
@@ -124,6 +124,7 @@ class DamagedConcrete : public StrengthLaw {
   }
 
   void advance(const Point& at) const {
+    const Real before = at.kept(dilation) - at.kept(volume);
     at.kept(volume) += at.strain(0) + at.strain(1) + at.strain(2);
     const Real most = at.kept(compaction);
     const Pressures pressures{c_.C, most, c_.C(most), c_.K.held(most)};
@@ -135,8 +136,9 @@ class DamagedConcrete : public StrengthLaw {
     const bool open = elastic < least;
 
     Real s[6];
-    const Real G = shear_at(pressures, e, least), p = open ? least : elastic;
-    const Real q = trial_deviator(at, G, s, of.cosine);
+    const Real G = shear_at(pressures, e), old = shear_at(pressures, before), p = open ? least : elastic;
+    // a modulus that falls again, as pressure comes back, leaves the elastic energy as it is
+    const Real q = trial_deviator(at, G, G < old ? std::sqrt(G / old) : 1, s, of.cosine);
     const Returned on = return_to_surface(pressures, e, p, q, G, open, modified, of);
     at.kept(plastic_strain) += on.flow, at.kept(dilation) += on.dilation, at.kept(lambda) += on.lambda;
     const Real now = e + on.dilation;
@@ -149,12 +151,12 @@ class DamagedConcrete : public StrengthLaw {
     at.kept(damage) = peak_ + last > 0 ? 2 * last / (last + peak_) : 0;
   }
 
-  /// `s`: the deviator without flow. Returns its q; `cosine`: of its Lode angle.
-  static Real trial_deviator(const Point& at, Real G, Real* s, Real& cosine) {
+  /// `s`: the deviator without flow, of `share` of the old one. Returns its q; `cosine`: of its Lode angle.
+  static Real trial_deviator(const Point& at, Real G, Real share, Real* s, Real& cosine) {
     const Real mean = (at.stress(0) + at.stress(1) + at.stress(2)) / 3,
                grown = (at.strain(0) + at.strain(1) + at.strain(2)) / 3;
     for (std::size_t k = 0; k < 6; ++k)
-      s[k] = at.stress(k) + 2 * G * at.strain(k) - (k < 3 ? mean + 2 * G * grown : 0);
+      s[k] = share * (at.stress(k) - (k < 3 ? mean : 0)) + 2 * G * (at.strain(k) - (k < 3 ? grown : 0));
     const Real J2 = 0.5 * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + s[3] * s[3] + s[4] * s[4] + s[5] * s[5];
     if (!(J2 > 0)) return 0;
     const Real J3 = s[0] * (s[1] * s[2] - s[4] * s[4]) - s[3] * (s[3] * s[2] - s[4] * s[5]) +

@@ -90,8 +90,7 @@ TEST(ConcreteDamage, CompactionIsThatOfTheTable) {
 
 TEST(ConcreteDamage, ErodesByMatAddErosion) {
   auto s = simulation_of(
-      driven_cube(1, concrete() + "*MAT_ADD_EROSION\n1\n,,,,,0.05\n", "0.0,1e-2\n1e9,1e-2\n", false)
-          .text(1e9));
+      driven_cube(1, concrete() + "*MAT_ADD_EROSION\n1\n,,,0.05\n", "0.0,1e-2\n1e9,1e-2\n", false).text(1e9));
   while (s->world().counters["deleted_elements"] == 0 && s->clock().t < 20) s->step(do_nothing);
   EXPECT_NEAR(std::log(1 + 1e-2 * s->clock().t), 0.05, 0.002);
 }
