@@ -310,7 +310,7 @@ void MatConcreteDamageRel3::check(const Deck& deck, const Model& model, Diagnost
     expect(gives_damage() || locwidth > 0 || rsize > 0, "LOCWIDTH", "a number > 0", locwidth,
            "the width over which the generated damage function holds, three times the largest aggregate; or "
            "give RSIZE, inches for the unit of length: one inch");
-  } else {
+  } else if (a0 > 0) {
     for (const auto& [field, value] :
          {std::pair{"FT", ft}, {"A1", a1}, {"A1F", a1f}, {"A0Y", a0y}, {"A1Y", a1y}})
       expect(value > 0, field, "a number > 0", value, "with A0 > 0 all parameters are given");

@@ -248,6 +248,22 @@ TEST(ConcreteDamage, CracksOpenAndClose) {
   EXPECT_NEAR(pressure(point), 3e-5 * K, 1e-6);
 }
 
+// Beside shear above a tenth of the tension a crack that opens is no damage of its own: lambda grows by flow
+// alone.
+TEST(ConcreteDamage, CracksBesideShearDoNoDamage) {
+  DrivenPoint point(concrete(30));
+  set(point, "modified_strain", 3.2e-4);
+  for (int n = 0; n < 400; ++n) point.strain({8e-7, -1e-7, -1e-7, 0, 0, 0});
+  const Real opened = point.of("opening"), flown = point.of("plastic_strain"),
+             l = point.of("modified_strain");
+  for (int n = 0; n < 5; ++n) point.strain({8e-7, -1e-7, -1e-7, 0, 0, 0});
+  EXPECT_GT(point.of("opening"), opened);
+  EXPECT_GT(q_of(point), -0.1 * pressure(point));
+  const Real weight = std::pow(1 + pressure(point) / tension_of(30), -1.35);
+  EXPECT_NEAR((point.of("modified_strain") - l) / (point.of("plastic_strain") - flown), weight,
+              0.02 * weight);
+}
+
 // Along the curve, back along K of the largest compaction, and there again.
 TEST(ConcreteDamage, CompactionGoesBackByItsModulus) {
   const Real f = 45.4, K = 14620;
