@@ -399,12 +399,13 @@ void MatConcreteDamageRel3::check_compaction(const Deck& deck, const Model& mode
                "this material computes the pressure by the C and K of *EOS_TABULATED_COMPACTION alone");
 }
 
-// By hand. 45.4 MPa in MPa: K = 14620, with PR 0.2 G = 0.75 K. Below first flow sxx = (K + 4 G/3) e = 2 K e,
-// syy = (K - 2 G/3) e = K e/2. Squeezed to ln V = -0.0043: p = 2.18 0.0015 K; from there back along 1.014 K.
-// Crushed (lambda 1): q = p/(0.4417 + 0.1183 p/45.4) at that p, without dilation.
-constexpr Real K45 = 14620, p43 = 2.18 * 0.0015 * K45;
-constexpr Real q43 = p43 / (0.4417 + 0.1183 / 45.4 * p43);
-const std::string concrete_45 = "1,2.3e-9,0.2\n0.0,-45.4\n0.0,0,0,3.937e-2,145.0377377\n\n\n\n\n";
+// By hand. 45.4 MPa in units of 14620 MPa: K = 1, with PR 0.2 G = 0.75. Below first flow sxx = (K + 4 G/3) e
+// = 2 e, syy = (K - 2 G/3) e = e/2. Squeezed to ln V = -0.0043: p = 2.18 0.0015; from there back along 1.014.
+// Crushed (lambda 1): q = p/(0.4417 + 0.1183 p/fc) at that p, without dilation.
+constexpr Real unit = 14620, fc45 = 45.4 / unit, p43 = 2.18 * 0.0015;
+constexpr Real q43 = p43 / (0.4417 + 0.1183 / fc45 * p43);
+const std::string concrete_45 = fmt::format(
+    "1,2.0,0.2\n0.0,{:.16g},0,0,0.1,1e-9\n0,0,0,1.0,{:.16g}\n\n\n\n\n", -fc45, 145.0377377 * unit);
 const RegisterStrength<MatConcreteDamageRel3> mat_concrete_damage_rel3{
     "q <= r(p, theta) f (eta (q1 - q2) + q2) at p/f, q1 = A0 + p/(A1 + A2 p), below fc/3 3/(2 psi) (p + FT); "
     "q2 "
@@ -414,7 +415,7 @@ const RegisterStrength<MatConcreteDamageRel3> mat_concrete_damage_rel3{
     "the "
     "table of compaction, >= -eta f FT",
     "Malvar, Crawford, Wesevich & Simons 1997; Willam & Warnke 1975",
-    {{concrete_45, {1e-5, 0, 0}, {}, {2e-5 * K45, 0.5e-5 * K45, 0.5e-5 * K45}},
+    {{concrete_45, {1e-5, 0, 0}, {}, {2e-5, 0.5e-5, 0.5e-5}},
      {concrete_45,
       {-0.0043 / 3, -0.0043 / 3, -0.0043 / 3},
       {},
@@ -424,7 +425,7 @@ const RegisterStrength<MatConcreteDamageRel3> mat_concrete_damage_rel3{
      {concrete_45,
       {1e-4, 1e-4, 1e-4},
       {-p43, -p43, -p43},
-      {-p43 + 3e-4 * 1.014 * K45, -p43 + 3e-4 * 1.014 * K45, -p43 + 3e-4 * 1.014 * K45},
+      {-p43 + 3e-4 * 1.014, -p43 + 3e-4 * 1.014, -p43 + 3e-4 * 1.014},
       {0, -0.0043, 0, 0, 0, 0.0043}},
      {concrete_45,
       {-0.02, 0.01, 0.01},

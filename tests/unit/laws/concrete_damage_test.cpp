@@ -282,6 +282,34 @@ TEST(ConcreteDamage, CompactionGoesBackByItsModulus) {
   EXPECT_NEAR(to(0.174), 127.1 * P, 1e-8);
   EXPECT_NEAR(to(0.208), 194.4 * P, 1e-8);
   EXPECT_NEAR(to(0.2), 194.4 * P - 0.008 * 5 * K, 1e-8);
+
+  // dilation compacts, too
+  DrivenPoint sheared(concrete(f));
+  sheared.strain({-0.0018, -0.0018, -0.0018, 0, 0, 0});
+  for (int n = 0; n < 400; ++n) sheared.strain({-4e-5, 2e-5, 2e-5, 0, 0, 0});
+  const Real most = sheared.of("dilation") - sheared.of("logarithmic_volume"), p = pressure(sheared);
+  EXPECT_GT(sheared.of("dilation"), 1e-4);
+  EXPECT_LT(most, 0.0101);
+  EXPECT_NEAR(sheared.of("compaction"), most, 1e-12);
+  EXPECT_NEAR(p, 2.18 * P + (most - 0.0043) / 0.0058 * 1.32 * P, 1e-8);
+  sheared.strain({4e-4, -2e-4, -2e-4, 0, 0, 0}), sheared.strain({2e-5, 2e-5, 2e-5, 0, 0, 0});
+  EXPECT_NEAR(p - pressure(sheared), 6e-5 * (1.014 + (most - 0.0043) / 0.0058 * 0.051) * K, 1e-8);
+}
+
+// On the curve of compaction the shear modulus goes by its slope, away from it by K, with exp(-5.55 phi)
+// between: 0.75 of the bulk modulus with PR 0.2.
+TEST(ConcreteDamage, ShearModulusGoesByCompaction) {
+  const Real f = 45.4, K = 14620, P = 0.0015 * K;
+  for (const Real back : {0.0, 5e-4, 2e-3}) {
+    DrivenPoint point(concrete(f));
+    point.strain({-0.0101 / 3, -0.0101 / 3, -0.0101 / 3, 0, 0, 0});
+    point.strain({back / 3, back / 3, back / 3, 0, 0, 0});
+    point.strain({0, 0, 0, 1e-6, 0, 0});
+    const Real curve = 1.32 * P / 0.0058, K_back = 1.065 * K;
+    const Real left = (3.5 * P - K_back * back + tension_of(f)) / K_back, phi = back / (back + left);
+    const Real G = 0.75 * (K_back + (curve - K_back) * std::exp(-5.55 * phi));
+    EXPECT_NEAR(point.stress[3], 2e-6 * G, 1e-9 * G * 2e-6) << back;
+  }
 }
 
 // All fields given, with *EOS_TABULATED_COMPACTION, make the concrete that -fc makes.
