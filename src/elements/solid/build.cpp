@@ -69,7 +69,7 @@ class SolidLaws {
                                  "store energy in it",
                                  part.id, out.viscosity.ihq),
                      "IHQ 1 to 3 are viscous");
-    } else if (part.eosid != 0) {
+    } else if (part.eosid != 0 && !law->second->takes_equation_of_state()) {
       deck.warning(diagnostics, part.card, "EOSID",
                    fmt::format("has no effect: the material of part {} has a "
                                "pressure of its own",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "laws/eos/eos.hpp"
 #include "laws/eos/volume_table.hpp"
@@ -98,5 +99,15 @@ const RegisterEos<Table008> eos_tabulated_compaction{
     eos_tabulated_compaction_table()};
 
 }  // namespace
+
+std::optional<CompactionCurves> compaction_curves(const Deck& deck, const Model& model, Id eosid) {
+  for (const EosTabulatedCompaction& card : deck.all<EosTabulatedCompaction>()) {
+    if (card.eosid != eosid) continue;
+    const bool cold = card.gama == 0 || (card.lct == 0 && card.table(model, 0, card.t()).is_zero());
+    return CompactionCurves{card.table(model, card.lcc, card.c()), card.table(model, card.lck, card.k()),
+                            cold && card.V0 == 1};
+  }
+  return std::nullopt;
+}
 
 }  // namespace courant

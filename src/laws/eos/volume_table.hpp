@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -56,5 +57,14 @@ VolumeTable volume_table(const Model& model, Id id, const VolumePoints& points,
 /// Whether the points, or those of the curve in `field`, make a function; an error where not.
 bool check_volume_table(const Deck& deck, const Entry& card, const char* field, Id id,
                         const VolumeTable& table, Diagnostics& diagnostics);
+
+/// What *EOS_TABULATED_COMPACTION gives over -ln V: the pressure of first loading C and the bulk modulus of
+/// unloading K [M/LT2]; `cold`: neither energy nor V0 is in it.
+struct CompactionCurves {
+  VolumeTable C, K;
+  bool cold = true;
+};
+/// Of the card with this id; none: there is no such card.
+std::optional<CompactionCurves> compaction_curves(const Deck& deck, const Model& model, Id eosid);
 
 }  // namespace courant

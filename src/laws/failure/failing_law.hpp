@@ -27,6 +27,7 @@ class FailingLaw : public StrengthLaw {
   }
   Real bulk_modulus() const override { return of_->bulk_modulus(); }
   Real shear_modulus() const override { return of_->shear_modulus(); }
+  bool takes_equation_of_state() const override { return of_->takes_equation_of_state(); }
   std::vector<HistoryVariable> history() const override {
     auto out = of_->history();
     out.insert(out.end(), more_.begin(), more_.end());

@@ -51,6 +51,8 @@ class StrengthLaw {
   virtual std::vector<HistoryVariable> history() const { return {}; }
   /// The law gives the deviator only: pressure comes from an equation of state that the part must have.
   virtual bool deviator_only() const { return false; }
+  /// The law computes the pressure from the equation of state of its parts.
+  virtual bool takes_equation_of_state() const { return false; }
   virtual Real bulk_modulus() const = 0;   ///< at rest; 0 with `deviator_only` [M/LT2]
   virtual Real shear_modulus() const = 0;  ///< at rest [M/LT2]
   /// The directions a, b of the rates and stresses of the law (material_axes.hpp); null: none. Shells rotate
@@ -138,7 +140,9 @@ struct RegisterStrength {
     entry.all = [](const Deck& deck, const Model& model) {
       std::vector<std::pair<Id, std::shared_ptr<StrengthLaw>>> laws;
       for (const Card& card : deck.all<Card>())
-        if constexpr (requires { card.law(model); })
+        if constexpr (requires { card.law(deck, model); })
+          laws.emplace_back(card.mid, with_additions(deck, model, card.mid, card.law(deck, model)));
+        else if constexpr (requires { card.law(model); })
           laws.emplace_back(card.mid, with_additions(deck, model, card.mid, card.law(model)));
         else
           laws.emplace_back(card.mid, with_additions(deck, model, card.mid, card.law()));

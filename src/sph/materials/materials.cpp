@@ -102,14 +102,15 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
           fmt::format("the particles of part {} need a *MAT_NULL or a material with strength, id {}; {}",
                       part.id, part.mid, deck.found_instead(IdSpace::material, part.mid)),
           "add the material, or correct the id here");
-    if (alone && part.eosid != 0)
+    const bool unused_eos = alone && part.eosid != 0 && !strength->second->takes_equation_of_state();
+    if (unused_eos)
       deck.error(diagnostics, part.card, "EOSID",
                  fmt::format("expected 0, got '{}': the material of part {} has a pressure of its own",
                              part.eosid, part.id),
                  "leave the field blank, or use a material that gives the "
                  "deviator only");
     const bool known_eos = alone || laws.exists(deck, part, "particles", diagnostics);
-    if (missing || !known_eos || (alone && part.eosid != 0)) continue;
+    if (missing || !known_eos || unused_eos) continue;
     PartMaterial& m = out[k];
     m.found = true;
     if (fluid != known.fluids.end()) {
