@@ -30,6 +30,8 @@ struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
   static Hardening of_curve(const Curve& curve) { return {curve.abscissa, curve.ordinate}; }
   static IndexedPieces pieces_of(const Hardening& points) { return {points.strain, points.stress}; }
   bool has_table(const Model& model) const { return lcss != 0 && model.tables.count(lcss) > 0; }
+  /// _LOG_INTERPOLATION, of *MAT_PIECEWISE_LINEAR_PLASTICITY alone.
+  bool by_logarithm() const { return name >= 2; }
 
   std::shared_ptr<StrengthLaw> law(const Model& model) const {
     TabulatedYield yield;
@@ -37,7 +39,9 @@ struct MatPiecewiseLinearPlasticity : MatPiecewiseLinearPlasticityFields {
       const Table& t = model.tables.at(lcss);
       for (const Id id : t.curve) yield.curves.push_back(pieces_of(of_curve(curve_of(model, id))));
       yield.rates = t.value;
-      yield.logarithmic = !t.value.empty() && t.value.front() < 0;
+      yield.logarithmic = by_logarithm() || (!t.value.empty() && t.value.front() < 0);
+      if (by_logarithm())
+        for (Real& rate : yield.rates) rate = std::log(rate);
     } else {
       Hardening one = lcss != 0 ? of_curve(curve_of(model, lcss)) : table();
       if (lcss == 0 && one.strain.empty()) one = {{0, 1}, {sigy, sigy + E * etan / (E - etan)}};
@@ -125,9 +129,17 @@ void M::check(const Deck& deck, const Model& model, Diagnostics& diagnostics) co
       for (const Id id : t.curve) check_curve(deck, model, id, diagnostics);
     if (c > 0 || lcsr != 0)
       deck.warning(diagnostics, *this, c > 0 ? "C" : "LCSR", "does nothing beside a table of rates");
+    if (by_logarithm() && !t.value.empty() && !(t.value.front() > 0))
+      deck.error(
+          diagnostics, *this, "LCSS",
+          fmt::format("table {} begins at a rate of {:g}, which has no logarithm", lcss, t.value.front()),
+          "with _LOG_INTERPOLATION rates are > 0; without it a table may be over logarithms, the first < 0");
   } else {
     check_curve(deck, model, lcss, diagnostics);
   }
+  if (by_logarithm() && !has_table(model))
+    deck.warning(diagnostics, *this, "LCSS", "_LOG_INTERPOLATION has no effect without a table of rates",
+                 "it is for LCSS that is a *DEFINE_TABLE");
   check_factor(deck, model, diagnostics);
   expect((c > 0) == (p > 0), c > 0 ? "P" : "C", "a number > 0", 0,
          "the rate of strain counts by C and P together; leave both blank where it does not");
