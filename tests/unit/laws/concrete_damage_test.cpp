@@ -258,6 +258,7 @@ TEST(ConcreteDamage, CracksBesideShearDoNoDamage) {
              l = point.of("modified_strain");
   for (int n = 0; n < 5; ++n) point.strain({8e-7, -1e-7, -1e-7, 0, 0, 0});
   EXPECT_GT(point.of("opening"), opened);
+  EXPECT_LT(pressure(point), -0.1 * tension_of(30));
   EXPECT_GT(q_of(point), -0.1 * pressure(point));
   const Real weight = std::pow(1 + pressure(point) / tension_of(30), -1.35);
   EXPECT_NEAR((point.of("modified_strain") - l) / (point.of("plastic_strain") - flown), weight,
