@@ -138,6 +138,13 @@ void take_deaths(const Deck& deck, const Model& model, const std::vector<std::sh
                  "beginning",
                  "run the deck with --restart, or delete elements by *DEFINE_ELEMENT_DEATH");
   if (cards.empty() && (at_restart.empty() || !goes_on)) return;
+  for (const auto& [name, use] : deck.keywords)  // what they hold in the state depends on what may fail
+    if (!at_restart.empty() && goes_on &&
+        (name.starts_with("CONTACT_ERODING") || name.starts_with("CONTACT_TIED")))
+      diagnostics.error(deck.where(at_restart.front()),
+                        fmt::format("{}: deletion at a restart is not supported beside *{}",
+                                    deck.keyword(at_restart.front()), name),
+                        "delete elements by *DEFINE_ELEMENT_DEATH from the start of the first run on");
   DeathReader reader(deck, model, laws, rules, diagnostics);
   for (const ElementDeath& card : cards) reader.take(card);
   for (const DeleteAtRestart& card : at_restart)

@@ -79,9 +79,15 @@ void warn_of_rest(const Deck& deck, const ControlTimestepCard& card, const World
   if (!scaled)
     deck.warning(diagnostics, card, "DT2MS",
                  "has no effect: the deck has no solids, shells or beams that deform", "leave it blank");
-  else if (world.particles.size() > 0)
-    deck.warning(diagnostics, card, "DT2MS",
-                 "adds mass to elements alone: particles keep the step that they need", "");
+  const bool springs = std::any_of(world.groups.begin(), world.groups.end(), [](const auto& g) {
+    return g->corners() == 2 && g->pushes && added_mass_of(g->fields) == nullptr;
+  });
+  for (const auto& [there, what] : {std::pair(world.particles.size() > 0, "particles keep"),
+                                    std::pair(springs, "discrete beams, cables and springs keep")})
+    if (scaled && there)
+      deck.warning(
+          diagnostics, card, "DT2MS",
+          fmt::format("adds mass to solids, shells and beams alone: {} the step that they need", what), "");
 }
 
 }  // namespace

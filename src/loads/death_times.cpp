@@ -63,6 +63,7 @@ class MotionDeaths : public Impact {
         ++world.counters["motions_ended_by_position"];
         for (Field<Index>* driven : driven_)
           if (driven) (*driven)[n] = 0;
+        if (Field<Index>* axes = shared_fields::driven_axes.find(world.nodes.fields)) (*axes)[n] = 0;
       }
   }
 

@@ -2,6 +2,7 @@
 // file.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <unordered_map>
@@ -109,6 +110,9 @@ void add_velocity_change(const Deck& deck, const Model& model, World& world, Dia
     others_rest = others_rest || !card.only();
   }
   for (const ChangeVelocityNode& card : nodes) {
+    if (std::none_of(model.nodes.begin(), model.nodes.end(),
+                     [&](const ModelNode& node) { return node.id == card.nid; }))
+      deck.error(diagnostics, card, "NID", fmt::format("node {} does not exist", card.nid), "correct the id");
     of_node[card.nid] = {Vec(card.vx, card.vy, card.vz), Vec(card.vxr, card.vyr, card.vzr)};
     others_rest = others_rest || !card.only();
   }

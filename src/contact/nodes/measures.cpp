@@ -49,7 +49,7 @@ Real ContactMeasures::half_thickness(int side, Index s) const {
 
 Real ContactMeasures::beam_radius(Index part, Real area) const {
   const Real optt = model_.parts[static_cast<std::size_t>(part)].optt;
-  if (!(card_->sast > 0) && optt > 0) return 0.5 * optt;
+  if (!(card_->sast > 0) && optt > 0) return 0.5 * optt * card_->sfsat;
   return card_->sast > 0 ? 0.5 * card_->sast : card_->sfsat * std::sqrt(area / pi);
 }
 

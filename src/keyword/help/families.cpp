@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 
 #include "keyword/help/law_names.hpp"
 #include "keyword/registry.hpp"
@@ -73,6 +74,7 @@ constexpr Family families[] = {
     {"CONTROL_CPM", "corpuscular gas particles"},
     {"CONTROL_DISCRETE_ELEMENT", "discrete element spheres"},
     {"CONTROL_EFG", "element-free Galerkin methods"},
+    {"CONTROL_EXPLICIT_THERMAL", "thermal analyses"},
     {"CONTROL_FORMING", "metal-forming tools"},
     {"CONTROL_FREQUENCY_DOMAIN", "frequency-domain analyses"},
     {"CONTROL_PORE", "pore pressures"},
@@ -210,7 +212,6 @@ constexpr WithoutEffect without_effect[] = {
     {"BOUNDARY_TEMPERATURE", not_thermal},
     {"BOUNDARY_THERMAL", not_thermal},
     {"CONTROL_IMPLICIT", not_implicit},
-    {"CONTROL_EXPLICIT_THERMAL", not_thermal},
     {"CONTROL_THERMAL", not_thermal},
     {"DEFINE_BOX_ADAPTIVE", not_referred_to},
     {"DEFINE_BOX_COARSEN", not_referred_to},
@@ -222,8 +223,6 @@ constexpr WithoutEffect without_effect[] = {
     {"DEFINE_REGION", not_referred_to},
     {"LOAD_HEAT", not_thermal},
     {"MAT_THERMAL", not_thermal},
-    {"MAT_T01", not_thermal},
-    {"MAT_T02", not_thermal},
     {"SET_2D", not_referred_to},
     {"SET_DISCRETE", not_referred_to},
     {"SET_MULTI", not_referred_to},
@@ -301,6 +300,9 @@ std::vector<std::string> keywords_without_effect() {
 }
 
 const char* why_without_effect(const std::string& name) {
+  if (name.size() >= 7 && name.rfind("MAT_T", 0) == 0 && std::isdigit(static_cast<unsigned char>(name[5])) &&
+      std::isdigit(static_cast<unsigned char>(name[6])))
+    return not_thermal;
   const auto at = std::find_if(std::begin(without_effect), std::end(without_effect),
                                [&](const WithoutEffect& one) { return begins_with_words(name, one.words); });
   return at == std::end(without_effect) ? nullptr : at->reason;

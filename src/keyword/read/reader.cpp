@@ -254,7 +254,8 @@ Treatment DeckReader::note_request(const File& file, std::size_t line, const Key
   const DataLines data(*file.source, line + 1);
   if (data.done() || !name.starts_with("DATABASE_BINARY_")) return refuse(name, where);
   const int width = keyword.format == CardFormat::long_fields ? 20 : 10;
-  const std::string_view text = split_equal(data.line(), width, width).front().text;
+  const std::vector<Slice> fields = split_equal(data.line(), width, width);
+  const std::string_view text = fields.empty() ? std::string_view() : fields.front().text;
   Real interval = 0;
   if (Parameters::is_reference(text))
     parse_real(parameters_.resolve(text).text, interval);

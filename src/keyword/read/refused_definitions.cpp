@@ -14,7 +14,8 @@ namespace {
 
 /// What the first field of such a keyword numbers; none: not such a definition.
 IdSpace space_of_definition(const std::string& name) {
-  if (name.starts_with("MAT_ADD_")) return IdSpace::none;  // acts on the material that it names
+  if (name.starts_with("MAT_ADD_") || name.starts_with("MAT_NONLOCAL"))
+    return IdSpace::none;  // they act on the material, or part, that they name
   if (name.starts_with("MAT_")) return IdSpace::material;
   if (name.starts_with("EOS_")) return IdSpace::eos;
   if (name.starts_with("SECTION_")) return IdSpace::section;
@@ -51,11 +52,15 @@ bool DeckReader::defer_definition(const File& file, std::size_t line, const Keyw
   if (!data.done() && keyword.name.ends_with("_TITLE")) data.step();
   if (data.done()) return false;
   const int width = keyword.format == CardFormat::long_fields ? 20 : 10;
-  const std::string_view text = split_equal(data.line(), width, width).front().text;
-  Real id = 0;
-  if (!parse_real(Parameters::is_reference(text) ? parameters_.resolve(text).text : text, id)) return false;
-  definitions_.push_back(
-      {keyword.name, deck_.location(file.index, static_cast<int>(line) + 1, 1), space, static_cast<Id>(id)});
+  const std::vector<Slice> fields = split_equal(data.line(), width, width);
+  if (fields.empty()) return false;
+  const std::string_view text = fields.front().text;
+  Id id = 0;
+  if (!parse_integer(Parameters::is_reference(text) ? parameters_.resolve(text).text : text, id))
+    return false;
+  const IdOffsets& offsets = deck_.files[static_cast<std::size_t>(file.index)].conversion.offsets;
+  definitions_.push_back({keyword.name, deck_.location(file.index, static_cast<int>(line) + 1, 1), space,
+                          offsets.shifted(space, id)});
   return true;
 }
 

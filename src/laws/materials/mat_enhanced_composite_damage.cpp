@@ -21,7 +21,8 @@ struct MatEnhancedCompositeDamage : DirectionsCard {
   Real twoway = 0, ti = 0, mangle = 0, dfailm = 0, dfails = 0;
   Real tfail = 0, alph = 0, soft = 1, fbrt = 0, ycfac = 2, dfailt = 0, dfailc = 0, efs = 0;
   Real xc = 0, xt = 0, yc = 0, yt = 0, sc = 0, crit = 54, beta = 0;
-  Real pel = 0, epsf = 0, epsr = 0, tsmd = 0.9, soft2 = 1;
+  int pel = 0;
+  Real epsf = 0, epsr = 0, tsmd = 0.9, soft2 = 1;
   Real slimt1 = 1, slimc1 = 1, slimt2 = 1, slimc2 = 1, slims = 1, ncyred = 0, softg = 1;
   Id lcxc = 0, lcxt = 0, lcyc = 0, lcyt = 0, lcsc = 0;
   Real dt = 0;

@@ -89,13 +89,16 @@ void ModelBuilder::finish_edge_nodes() {
     node.v = 0.5 * (a.v + b.v);
     for (std::size_t k = 0; k < 3; ++k) node.fixed[k] = a.fixed[k] && b.fixed[k];
   }
-  if (first_made_)
-    diagnostics_.note(
-        deck_.where(*first_made_),
-        fmt::format("{}: {} nodes are added on edges, ids from {}; one is held where both ends of its edge "
-                    "are held, and has the mean of their initial velocities; sets of nodes have none of them",
-                    deck_.keyword(*first_made_), made_.size(),
-                    model_.nodes[static_cast<std::size_t>(made_.begin()->second)].id));
+  if (!first_made_) return;
+  Index first = made_.begin()->second;
+  for (const auto& made : made_) first = std::min(first, made.second);
+  diagnostics_.note(
+      deck_.where(*first_made_),
+      fmt::format("{}: {} nodes are added on edges, ids from {}; one is held where both ends of its edge "
+                  "are held from the start to the end along global axes, and has the mean of their initial "
+                  "velocities; sets of nodes, and so prescribed motions, have none of them",
+                  deck_.keyword(*first_made_), made_.size(),
+                  model_.nodes[static_cast<std::size_t>(first)].id));
 }
 
 /// The least volume that one of the 27 points represents, as if all did as much (src/elements/solid). [L3]

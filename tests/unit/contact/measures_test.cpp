@@ -113,7 +113,7 @@ TEST(ContactMeasures, PartsMayHaveAThicknessOfTheirOwn) {
     const ContactMeasures m = faces.measures();
     EXPECT_DOUBLE_EQ(m.half_thickness(0, Faces::shell), given ? 1.2 : 0.5 * 0.7 * 3);
     EXPECT_DOUBLE_EQ(m.half_thickness(0, Faces::triangle), given ? 1.2 : 0.2);  // of the part without OPTT
-    EXPECT_DOUBLE_EQ(m.beam_radius(0, 5), given ? 1.2 : 0.35);
+    EXPECT_DOUBLE_EQ(m.beam_radius(0, 5), given ? 1.2 : 0.35 * 3);
   }
 }
 

@@ -105,9 +105,10 @@ TEST(BodyLoads, AreReadWithDirectionCentreAndParts) {
 }
 
 TEST(BodyLoads, HaveTheAxesOfTheirSystem) {
-  const SmallModel m = small_model(ramp + "*DEFINE_COORDINATE_SYSTEM\n23,0,0,0,0,1,0\n-1,0,0\n"
-                                          "*LOAD_BODY_X\n1,2.,,,,,23\n"
-                                          "*LOAD_BODY_VECTOR\n1,-4.,,,,,23\n0.,3.,4.\n");
+  const SmallModel m = small_model(ramp +
+                                   "*DEFINE_COORDINATE_SYSTEM\n23,0,0,0,0,1,0\n-1,0,0\n"
+                                   "*LOAD_BODY_X\n1,2.,,,,,23\n"
+                                   "*LOAD_BODY_VECTOR\n1,-4.,,,,,23\n0.,3.,4.\n");
   const auto& loads = m.model.body_loads;
   ASSERT_EQ(loads.size(), 2u) << m.messages;
   EXPECT_NEAR((loads[0].direction - Vec::UnitY()).norm(), 0, 1e-15);
