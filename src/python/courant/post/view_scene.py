@@ -121,7 +121,7 @@ def _chosen(state: Any, view: View) -> list[tuple[Any, FieldValues]]:
 def spoken(name: str) -> str:
     """ "stress_upper.mises" -> "stress upper, von Mises"."""
     array, _, part = name.partition(".")
-    return array.replace("_", " ") + {"": "", "mises": ", von Mises", "mean": ", mean"}.get(part, f" {part}")
+    return array.replace("_", " ").replace("von mises", "von Mises") + {"": "", "mises": ", von Mises", "mean": ", mean"}.get(part, f" {part}")
 
 
 def _within(x: np.ndarray, window: tuple[Any, ...]) -> np.ndarray:
@@ -150,13 +150,25 @@ def _particles(mesh: Any, view: View, values: np.ndarray, flat: bool) -> tuple[n
     return mesh.points[on], V[on], mesh["smoothing_length"].astype(float)[on], values[on] * view.factor
 
 
+def _solid_parts(state: Any, chosen: dict[Any, FieldValues]) -> np.ndarray:
+    """Parts whose faces for contact in the file of shells would hide, without a stress, the faces of the solids that they are."""
+    shells, solids = state.shells, state.solids
+    if shells is None or solids is None or shells.path == solids.path or (shells.path in chosen) > (solids.path in chosen) or "part" not in solids.names:
+        return np.empty(0)
+    volumes = np.array([len(cell) > 3 for cell in solids.cells], dtype=bool)
+    return np.unique(np.asarray(solids["part"])[volumes])
+
+
 def _elements(state: Any, view: View, chosen: dict[Any, FieldValues], flat: bool) -> tuple[Faces | None, np.ndarray | None, Faces | None]:
     """Faces that get colours, values at their corners, and other faces: walls. Faces without a finite value are walls, too."""
     shown: list[Faces] = []
     values: list[np.ndarray] = []
     others: list[Faces] = []
+    solid = _solid_parts(state, chosen)
     for mesh in state.elements:
         every = faces_of(mesh)
+        if len(solid) and mesh.path != state.solids.path:
+            every = every.part_of(~np.isin(every.part, solid))
         if not flat:
             every = every.part_of(_within(every.x[every.corners].mean(axis=1), view.window))
         if mesh.path not in chosen:
