@@ -139,7 +139,8 @@ class D3plotRunState(RunState):
             return None
         data = {key: np.concatenate([one[key] for one in arrays]) for key in arrays[0] if all(key in one for one in arrays)}
         nodes = {key: values for key, values in self._nodes.items() if key != "position"}
-        at = self._nodes.get("position", file.places)
+        if (at := self._nodes.get("position")) is None:
+            raise self._fault("its states have no positions of nodes")
         sections = {"PointData": nodes, "CellData": data, "Points": {"Points": at}, "Cells": {"types": np.array(types, np.uint8)}}
         return D3plotMesh(self._name(name), self._units, _Arrays(sections, cells))
 

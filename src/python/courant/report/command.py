@@ -23,7 +23,7 @@ def _fault(message: str, folder: Path, hint: str) -> CourantError:
 
 
 def _is_there(run: Results, what: str) -> bool:
-    """Whether a file of a run can be read, or is damaged in a way that the page says."""
+    """Whether a file of a run can be read, and has content."""
     try:
         if what == "summary.yaml":
             return any(key in run.summary for key in _OWN_KEYS)
@@ -49,7 +49,7 @@ def results_of(folder: str) -> Results:
     except OSError:
         known = []
     damaged = [name for name in known if name in ("summary.yaml", "history.h5", "fields.pvd", "d3plot", *ASCII_NAMES) or name.startswith("binout")]
-    said = f"no results of a run here that can be read ({', '.join(damaged)} cannot)" if damaged else "no results of a run here" + ("" if known else ": the folder is empty")
+    said = "no results of a run here" + (f" that can be read ({', '.join(damaged)} cannot)" if damaged else "" if known else ": the folder is empty")
     raise _fault(said, here, "DIR must be the folder that `courant run -o DIR` wrote; nothing was written")
 
 

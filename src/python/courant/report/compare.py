@@ -12,7 +12,7 @@ from .sources import Sources, summary_of, unit_names
 
 _WORDS = {"verdict": "verdict", "termination": "ended", "time": "end time", "steps": "steps", "dt_min": "smallest step", "particles": "particles",
           "elements": "elements that deform", "wall_seconds": "elapsed [s]", "cpu_seconds": "processor time [s]"}  # fmt: skip
-_MOST = 40
+_EACH = 6  # entities of a kind
 
 
 def _change(a: object, b: object) -> str:
@@ -47,22 +47,24 @@ def differences(sources: Sequence[Sources], names: Sequence[str]) -> str:
             if left or right:
                 rows.append([f"{name.replace('_', ' ')} energy at the end" if "work" not in name else f"{name.replace('_', ' ')} at the end", left, right,
                              unit("ML2/T2"), _change(left, right)])
-    only, peaks = [], 0
+    only, left = [], 0
     for found in Gallery(sources, names).all_found():
         title = found[0][1].kind.title
         if len(found) < 2:
             only.append(f"{title}: only in {names[found[0][0]]}")
             continue
         mine, other = ({(e.id, label): (e, lines) for e in one.entities for label, lines in e.lines.items()} for _, one in found)
-        for key, (entity, lines) in mine.items():
-            if key in other and (lines.peak > 0 or other[key][1].peak > 0):
-                peaks += 1
-                if peaks <= _MOST:
-                    word = f"{found[0][1].kind.noun} {entity.id}".strip()
-                    rows.append([f"{word}: largest {lines.label}", lines.peak, other[key][1].peak, unit(lines.dimension, lines.label), _change(lines.peak, other[key][1].peak)])
+        both = [key for key in mine if key in other and (mine[key][1].peak > 0 or other[key][1].peak > 0)]
+        largest = list(dict.fromkeys(id for id, _ in sorted(both, key=lambda key: -mine[key][0].peak)))[:_EACH]
+        left += sum(id not in largest for id, _ in both)
+        for id, label in both:
+            if id in largest:
+                lines, word = mine[id, label][1], f"{found[0][1].kind.noun} {id}".strip()
+                peaks = lines.peak, other[id, label][1].peak
+                rows.append([f"{word}: largest {label}", *peaks, unit(lines.dimension, label), _change(*peaks)])
         lone = len(set(mine) ^ set(other))
         if lone:
             only.append(f"{title}: {lone} quantities are in one run only")
-    if peaks > _MOST:
-        only.append(f"peaks of {peaks - _MOST} more quantities are not listed")
+    if left:
+        only.append(f"of each kind the {_EACH} with the largest values are listed; peaks of {left} more quantities are not")
     return table(rows, ("", names[0], names[1], "unit", "change")) + "".join(paragraph(one) for one in only)

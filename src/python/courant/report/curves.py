@@ -110,6 +110,8 @@ class Gallery:
         out, zero, title = "", [], _name(noun, pairs[0][1])
         for label in dict.fromkeys(label for _, one in pairs for label in one.lines):
             some = [(run, one) for run, one in pairs if label in one.lines]
+            if max(len(one.t) for _, one in some) < 2:
+                continue
             if not any(one.lines[label].peak > 0 for _, one in some):
                 zero.append(f"{title}: {label}")
             elif self.left > 0:
@@ -177,9 +179,11 @@ class Gallery:
                 made, zero = made + drawn, zero + empty
             if len(ids) > kind.each:
                 where = " and ".join(dict.fromkeys(one.where for _, one in found))
-                notes.append(f"of {len(ids)} {kind.noun or 'entitie'}s the {kind.each} with the largest values are drawn; all are in {where}")
+                notes.append(f"{kind.noun or 'entry'}: of {len(ids)} the {kind.each} with the largest values are drawn; all are in {where}")
             else:
                 notes.append(f"from {' and '.join(dict.fromkeys(one.where for _, one in found))}")
+            if max((len(e.t) for _, one in found for e in one.entities), default=0) < 2:
+                notes.append("one row only, which is no curve")
             if kind.file == "rcforc" and zero:
                 notes.append("forces on both sides of a single-surface contact cancel: its energies say what it did")
             if zero:
@@ -243,12 +247,25 @@ def energies(sources: Sequence[Sources], names: Sequence[str]) -> str:
             rows.append(row if len(sources) == 1 else [row[0], names[run], *row[1:]])
     if not rows:
         return paragraph("The run has written no energies: *DATABASE_GLSTAT asks for them.")
+    rows.sort(key=lambda row: [_spoken(name) for name in order].index(str(row[0])))
     axes.set_position((0.1, 0.12, 0.64, 0.84))
     figure.set_size_inches(9.0, 4.2)
     axes.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0, frameon=False)
     head = ["", *([] if len(sources) == 1 else ["run"]), *(f"{one} [{unit}]" for one in ("at the start", "lowest", "largest", "at the end"))]
-    notes = [f"from {' and '.join(dict.fromkeys(where))}"] + ([f"zero all the time, and not drawn: {', '.join(dict.fromkeys(zero))}"] if zero else [])
+    notes = [f"from {' and '.join(dict.fromkeys(where))}", *_shares(sources, names)]
+    notes += [f"zero all the time, and not drawn: {', '.join(dict.fromkeys(zero))}"] if zero else []
     return picture(figure, "energies over time", "states", _DPI) + table(rows, head) + paragraph("; ".join(notes))
+
+
+def _shares(sources: Sequence[Sources], names: Sequence[str]) -> list[str]:
+    """How well the energy is kept, and the share of the hourglass energy, at the end."""
+    out = []
+    for source, name in zip(sources, names, strict=True):
+        every, word = source.energies[1], f"{name}: " if len(sources) > 1 else ""
+        last = {key: float(values[np.isfinite(values)][-1]) for key, values in every.items() if np.isfinite(values).any()}
+        if last.get("hourglass", 0.0) > 0 and (most := float(np.nanmax(every["internal"], initial=0.0) if "internal" in every else 0.0)) > 0:
+            out.append(f"{word}hourglass energy is {100 * last['hourglass'] / most:.3g} % of the largest internal energy")
+    return out
 
 
 def time_steps(sources: Sequence[Sources], names: Sequence[str]) -> str:

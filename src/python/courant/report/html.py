@@ -6,6 +6,7 @@ import base64
 import html
 import io
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from ..diagnostics import CourantError
@@ -15,6 +16,7 @@ STYLE = """body{font:15px/1.45 system-ui,sans-serif;margin:1.5em auto;max-width:
 h1{font-size:1.5em;margin:.2em 0}h2{font-size:1.2em;border-bottom:1px solid #ccc;margin-top:1.6em}h3{font-size:1.03em;margin:1.2em 0 .2em}
 .scroll{overflow-x:auto}table{border-collapse:collapse;margin:.5em 0;overflow-wrap:normal}td,th{padding:.15em .9em .15em 0;text-align:left;vertical-align:top}
 thead th{border-bottom:1px solid #ccc;font-weight:600}tbody th{font-weight:500}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+.data td,.data th{white-space:nowrap}
 figure{display:inline-block;margin:.4em 1em .4em 0;vertical-align:top;max-width:100%}.curves figure{width:31em}img{max-width:100%;height:auto}
 .states{display:block;overflow-x:auto}.states img{max-width:none;width:100%;min-width:34em}.states.narrow img{width:auto;min-width:0;max-width:100%}
 figcaption,.note{color:#555;font-size:.92em}.sound,.healthy{color:#176117}.doubtful{color:#9a5b00}.broken,.error{color:#a11}
@@ -41,7 +43,7 @@ def table(rows: Sequence[Sequence[object]], head: Sequence[str] = ()) -> str:
     right = [all(isinstance(row[k], (int, float)) or row[k] == "" for row in rows if k < len(row)) for k in range(len(head))]
     top = "".join(f'<th{" class=n" if at_right else ""}>{text(one)}</th>' for one, at_right in zip(head, right, strict=True))
     body = "".join(f"<tr>{_cell(row[0], 'th')}{''.join(_cell(one) for one in row[1:])}</tr>" for row in rows)
-    return f'<div class="scroll"><table>{f"<thead><tr>{top}</tr></thead>" if head else ""}<tbody>{body}</tbody></table></div>'
+    return f'<div class="scroll"><table{" class=data" if head else ""}>{f"<thead><tr>{top}</tr></thead>" if head else ""}<tbody>{body}</tbody></table></div>'
 
 
 def picture(figure: Any, caption: str, kind: str = "", dpi: int = 100) -> str:
@@ -61,7 +63,7 @@ def attempt(make: Callable[[], str], what: str) -> str:
     try:
         return make()
     except CourantError as fault:
-        lines = str(fault).splitlines()
-        return paragraph(f"{what}: {lines[0]}") + "".join(paragraph(line.strip()) for line in lines[1:2])
+        first = fault.diagnostics.all[0]
+        return paragraph(f"{what}: {first.message} ({Path(first.where.file).name})" + (f"; {first.hint}" if first.hint else ""))
     except (MissingModule, KeyError, ValueError, ImportError, OSError) as fault:
         return paragraph(f"{what}: {fault.args[0] if fault.args else fault}")

@@ -1,4 +1,4 @@
-"""The one table of what histories a page shows, in the order in which an engineer looks at them, and where each is found."""
+"""The one table of what histories a page shows, forces first, and where each is found."""
 
 from __future__ import annotations
 

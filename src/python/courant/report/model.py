@@ -19,7 +19,7 @@ from .sources import Sources, summary_of, time_unit, unit_names
 _KINDS = {3: "beams", 5: "shells", 9: "shells", 10: "solids", 12: "solids", 13: "solids", 14: "solids", 24: "solids", 25: "solids"}  # by VTK's types
 _KIND = re.compile(r"^    [a-z]+ +([a-z ]+?) of part (\d+)", re.MULTILINE)
 _CONTROL = re.compile(r"^ dt of cycle +\d+ is controlled by (.+?)(?:, in a step before)?\s*$", re.MULTILINE)
-_ACTING = re.compile(r"^    (?:rates|forces|constraints|motion) +(\S.*)$", re.MULTILINE)
+_ACTING = re.compile(r"^  (?:  rates|  forces|  constraints|  motion|impact) +(\S.*)$", re.MULTILINE)
 _FAMILIES = {
     "contacts": ("CONTACT_",), "rigid walls": ("RIGIDWALL_",), "loads": ("LOAD_",), "initial conditions": ("INITIAL_",),
     "boundary conditions": ("BOUNDARY_",), "constraints": ("CONSTRAINED_",), "damping": ("DAMPING_",),
@@ -213,7 +213,7 @@ def model(run: Results, sources: Sources) -> str:
         said = "the deck is not beside the results, so that materials and keywords are not listed"
     units = run.units
     known = "" if units.mass == "model units" else f"{units.mass}, {units.length}, {units.time}, as the numbers suggest"
-    rows.append(("units", known or "not known: \"model units\" are those of the deck"))
+    rows.append(("units", known or "not known: M, L and T are the units of mass, length and time of the deck"))
     facts = "".join(f"<tr><th>{text(a)}</th><td>{text(b)}</td></tr>" for a, b in rows if b)
     return f'<div class="scroll"><table>{facts}</table></div>{_parts(run, sources, deck, log)}' + (paragraph(said) if said else "")
 

@@ -52,7 +52,8 @@ def _verdict(run: Results, sources: Sources) -> str:
     counters = summary.get("counters") or {}
     facts += [(key.replace("_", " "), value) for key, value in counters.items() if isinstance(value, (int, float)) and value]
     advice = f"<p>{text(summary['advice'])}</p>" if summary.get("advice") else ""
-    return f'<p>Verdict: <b class="{html.escape(verdict)}">{text(verdict)}</b></p><ul>{reasons}</ul>{advice}{table([(a, f"{b:.5g}" if isinstance(b, float) else str(b)) for a, b in facts])}'
+    rows = table([(a, f"{b:.5g}" if isinstance(b, float) else str(b)) for a, b in facts])
+    return f'<p>Verdict: <b class="{html.escape(verdict)}">{text(verdict)}</b></p><ul>{reasons}</ul>{advice}{rows}'
 
 
 def _warnings(run: Results, sources: Sources) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..post.view_fields import UnknownField, field_names
+from ..post.view_fields import UnknownField, field_names, field_of
 from ..post.view_scene import View, scene_of
 from ..post.views import draw_view
 from ..results import Results
@@ -16,6 +16,7 @@ from .sources import unit_names
 _DPI = 90
 _APART = 30.0  # a scene that has grown so many times has flown apart
 _STRESS = ("von_mises", "plastic_strain")
+_CAPTIONS = {"particles": "particles by speed", "von_mises": "von Mises stress (of shells the largest of their layers)"}
 _UNITS = {"von_mises": "M/LT2", "axial_force": "ML/T2"}
 
 
@@ -35,7 +36,9 @@ def _chosen(run: Results) -> tuple[list[float], str]:
     first, last = _extent(states[0]) or 1.0, len(states) - 1
     while last > 0 and not _extent(states[last]) <= _APART * first:
         last -= 1
-    said = "" if last == len(states) - 1 else f"{len(states) - 1 - last} later states are not drawn: they have flown apart, to more than {_APART:g} times the size"
+    said = ""
+    if apart := len(states) - 1 - last:
+        said = f"{apart} later states are not drawn: they have flown apart, to more than {_APART:g} times the size"
     return [float(states.times[k]) for k in dict.fromkeys((0, last // 2, last))], said
 
 
@@ -45,8 +48,6 @@ def _values(state: Any, field: str) -> dict[int, float]:
     for mesh in state.elements:
         if field not in field_names(mesh):
             continue
-        from ..post.view_fields import field_of
-
         found = field_of(mesh, field)
         if found.at != "elements" or "part" not in mesh.names:
             out[-1] = max(out.get(-1, 0.0), float(np.nanmax(np.abs(found.values), initial=0.0)))
@@ -96,7 +97,7 @@ def pictures(run: Results) -> str:
             out += paragraph(f"{view.name}: {fault}")
             continue
         count = len(run.states)
-        what = {"particles": "particles by speed", "von_mises": "von Mises stress (of shells the largest of their layers)"}.get(view.name, view.name.replace("_", " "))
+        what = _CAPTIONS.get(view.name, view.name.replace("_", " "))
         grey = f"; grey: without it (part {', '.join(map(str, sorted(p for p in view.bare if p >= 0)))})" if any(p >= 0 for p in view.bare) else ""
         width = figure.get_figwidth()
         out += picture(figure, f"{what}; first, middle and last of {count} states{grey}", "states" if width > 6 else "states narrow", _DPI)

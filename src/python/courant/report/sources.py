@@ -16,7 +16,7 @@ from ..binout import BinoutFault, binout_files
 from ..diagnostics import CourantError, Diagnostics
 from ..post.view_fields import mises
 from ..results import Results
-from ..units import Dimension
+from ..units import MODEL_UNITS
 from .kinds import KINDS, Kind, Quantity, Series
 
 _MOST_ROWS = 4000  # of a curve that is drawn
@@ -102,6 +102,11 @@ def _spoken(name: str) -> str:
     return name.replace("_", " ").strip()
 
 
+def _singular(name: str) -> str:
+    """ "driven_bodies" -> "driven body"."""
+    return _spoken(name).removesuffix("s").replace("bodie", "body")
+
+
 class Sources:
     """The files of a run, each opened once; `faults`: those that could not be read."""
 
@@ -109,6 +114,7 @@ class Sources:
         self.run, self.faults = run, []
         self._ascii: dict[str, AsciiFile | None] = {}
         self.notes: dict[str, str] = {}
+        self._found: dict[str, Found] = {}
 
     def _try(self, read: Callable[[], object], file: str) -> object | None:
         try:
@@ -188,7 +194,7 @@ class Sources:
         if len(kind.groups) > 1:
             for one, group in zip(made, groups, strict=True):
                 if one is not None:
-                    one.title = f"{group.partition('/')[0].rstrip('s').replace('_', ' ').replace('bodie', 'body')} {one.id}" + (f": {one.title}" if one.title else "")
+                    one.title = f"{_singular(group.partition('/')[0])} {one.id}" + (f": {one.title}" if one.title else "")
         return [one for one in made if one is not None]
 
     # ASCII
@@ -269,6 +275,11 @@ class Sources:
 
     def find(self, kind: Kind) -> Found:
         """The first source that has the kind."""
+        if kind.title not in self._found:
+            self._found[kind.title] = self._find(kind)
+        return self._found[kind.title]
+
+    def _find(self, kind: Kind) -> Found:
         if self.h5 is not None and (some := self._of_h5(kind)):
             return Found(kind, some, f"history.h5 (/{', /'.join(kind.groups)})")
         if some := self._of_ascii(kind):
@@ -287,7 +298,8 @@ class Sources:
             name = group.partition("/")[0]
             if name not in known and (made := self._of_group(None, group)) is not None:
                 by_name.setdefault(name, []).append(made)
-        return [Found(Kind(_spoken(name).capitalize(), _spoken(name).rstrip("s"), "", (name,), ()), some, f"history.h5 (/{name})") for name, some in by_name.items()]
+        kinds = [Kind(_spoken(name).capitalize(), _singular(name), "", (name,), ()) for name in by_name]
+        return [Found(kind, some, f"history.h5 (/{name})") for kind, (name, some) in zip(kinds, by_name.items(), strict=True)]
 
     def not_shown(self) -> list[str]:
         """Histories of binout that no kind takes."""
@@ -372,17 +384,20 @@ _USUAL = {  # of a system: force, stress, energy, moment
 
 
 def unit_names(run: Results) -> Callable[..., str]:
-    """The unit of a dimension, "ML/T2", by its usual name where it has one: N, kN, MPa, J. `label`: of the quantity; a moment is no energy."""
+    """The unit of a dimension, "ML/T2", by its usual name where it has one: N, kN, MPa, J; the dimension itself where the
+    units are not known. `label`: of the quantity; a moment is no energy."""
     usual = _USUAL.get((run.units.mass, run.units.length, run.units.time))
 
     def name(dimension: str, label: str = "") -> str:
         if usual and dimension in ("ML/T2", "M/LT2", "ML2/T2"):
             turning = "moment" in label or "torsion" in label
             return usual[("ML/T2", "M/LT2", "ML2/T2").index(dimension) + (turning and dimension == "ML2/T2")]
+        if run.units == MODEL_UNITS and dimension not in ("-", "?", "%", "ns"):
+            return dimension
         return run.units.of_text(dimension)
 
     return name
 
 
 def time_unit(run: Results) -> str:
-    return run.units.of(Dimension(T=1))
+    return unit_names(run)("T")
