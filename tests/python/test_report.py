@@ -145,6 +145,15 @@ def test_two_runs_are_compared(tmp_path):
     assert "Forces in cross sections: only in b" in text and re.search(r"verdict\s+sound\s+sound", text)
 
 
+def test_gauges_of_a_killed_run(tmp_path):
+    folder = _killed(tmp_path / "run")
+    (folder / "gauges").mkdir()
+    (folder / "gauges/p.csv").write_text("time,wet,pressure,velocity.x,velocity.y,velocity.z\n0,0,nan,nan,nan,nan\n1,1,30,3,0,4\n2,1,20,0,0,0\n3,1,2")
+    (folder / "gauges/bad.csv").write_text("what,is\n1,2\n")
+    text = _page(folder)
+    assert re.search(r"gauge p\s+pressure\s+30\s+1\s+20", text) and re.search(r"gauge p\s+velocity\s+5\s+1\s+0", text) and "no table of a gauge" in text
+
+
 def test_thinned_curves_keep_their_peaks():
     t = np.arange(100001.0)
     values = np.sin(t)

@@ -138,7 +138,13 @@ def _titles(sources: Sources) -> dict[int, str]:
     """Of parts, from history.h5 or matsum's legend."""
     if sources.h5 is not None:
         return {int(g.split("/")[1]): sources._title(g) for g in sources.h5.groups if re.fullmatch(r"parts/\d+", g)}
-    return {int(number): title for number, title in sources.legend("matsum").items()}
+    titles = {int(number): title for number, title in sources.legend("matsum").items()}
+    if not titles and (sources.run.folder / "d3plot").is_file():
+        try:
+            return {number: title for number, title in sources.run.d3plot.parts.items() if title}
+        except CourantError:
+            pass  # the page says it among the warnings
+    return titles
 
 
 def _parts(run: Results, sources: Sources, model: _Model | None, log: str) -> str:

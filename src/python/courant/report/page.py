@@ -28,6 +28,8 @@ _WARNING = re.compile(r"^(.*?warning: .*(?:\n  hint: .*)*)", re.MULTILINE)
 
 def _killed(run: Results) -> str:
     """What is known of a run without summary.yaml."""
+    if not (run.folder / "messag").is_file():
+        return paragraph("The folder has neither summary.yaml nor messag of `courant run`: a copy of some files, or results of another program.")
     rows = _LAST.findall(messag(run))
     unit = time_unit(run)
     last = f" messag ends at step {rows[-1][0]}, t = {float(rows[-1][1]):.5g} {unit}." if rows else ""
@@ -93,7 +95,13 @@ def _names(runs: Sequence[Results]) -> list[str]:
 
 def _title(run: Results) -> str:
     found = re.search(r"^deck \S+?: (.+)$", messag(run), re.MULTILINE)
-    return str(summary_of(run).get("title") or (found[1] if found else "") or run.folder.resolve().name)
+    title = str(summary_of(run).get("title") or (found[1] if found else ""))
+    if not title and (run.folder / "d3plot").is_file():
+        try:
+            title = run.d3plot.title.strip()
+        except CourantError:
+            pass  # Warnings says it
+    return title or run.folder.resolve().name
 
 
 def page_of(runs: Sequence[Results]) -> str:

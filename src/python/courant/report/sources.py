@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -100,6 +101,28 @@ def _mean_force(t: np.ndarray, impulse: np.ndarray) -> Lines:
 
 def _spoken(name: str) -> str:
     return name.replace("_", " ").strip()
+
+
+_OF_GAUGES = {"pressure": "M/LT2", "velocity": "L/T", "density": "M/L3", "level": "L", "force": "ML/T2", "moment": "ML2/T2", "energy": "ML2/T3",
+              "volume": "L3/T", "mass": "M/T", "momentum": "ML/T2", "pressure_force": "ML/T2"}  # fmt: skip
+
+
+def _gauge_of(file: Path) -> Entity:
+    """Raises ValueError, OSError."""
+    rows = file.read_text(errors="replace").splitlines()
+    head = rows[0].split(",") if rows else []
+    whole = [row for row in rows[1:] if row.count(",") == len(head) - 1]
+    values = np.array([[float(one) for one in row.split(",")] for row in whole]).reshape(len(whole), len(head))
+    lines: dict[str, Lines] = {}
+    if head[:1] != ["time"]:
+        raise ValueError("it is no table of a gauge")
+    for k, name in enumerate(head[1:], 1):
+        base, _, axis = name.partition(".")
+        if base not in _NO_CURVES:
+            lines.setdefault(base, Lines(_spoken(base), _OF_GAUGES.get(base, "?"), [])).curves.append((axis or _spoken(base), values[:, k]))
+    for one in lines.values():
+        one.vector = [axis for axis, _ in one.curves] == ["x", "y", "z"]
+    return Entity(file.stem, "", values[:, 0], lines)
 
 
 def _singular(name: str) -> str:
@@ -228,6 +251,14 @@ class Sources:
                 out.append(made)
         return out
 
+    def _of_csv(self) -> list[Entity]:
+        """Gauges of a run that has no history.h5 yet: a table each."""
+        out = []
+        for file in sorted((self.run.folder / "gauges").glob("*.csv")):
+            read = self._try(lambda file=file: _gauge_of(file), f"gauges/{file.name}")  # type: ignore[misc]
+            out += [read] if isinstance(read, Entity) and _whole(read) is not None else []
+        return out
+
     # binout
 
     def _of_binout(self, kind: Kind) -> list[Entity]:
@@ -282,6 +313,8 @@ class Sources:
     def _find(self, kind: Kind) -> Found:
         if self.h5 is not None and (some := self._of_h5(kind)):
             return Found(kind, some, f"history.h5 (/{', /'.join(kind.groups)})")
+        if "gauges" in kind.groups and (some := self._of_csv()):
+            return Found(kind, some, "gauges/NAME.csv")
         if some := self._of_ascii(kind):
             return Found(kind, some, kind.file)
         if self.binout is not None and (some := self._of_binout(kind)):
