@@ -96,7 +96,7 @@ KINDS = (
         _scalars("pressure", "M/LT2", ("pressure", "p", "", "")), _vector("velocity", "L/T", "v", "", ""),
         _scalars("density", "M/L3", ("density", "rho", "density", "density"))), ("sphout",), each=3),
     Kind("Tracers", "tracer", "trhist", ("tracers",), (
-        _vector("velocity", "L/T", "v", "v{}", "{}_velocity"), _vector("position", _LENGTH, "x", "{}", "{}"),
+        _vector("velocity", "L/T", "v", "v{}", "v{}"), _vector("position", _LENGTH, "x", "{}", "{}"),
         _scalars("density", "M/L3", ("density", "rho", "rho", "rho"))), ("trhist",), each=3),
     Kind("Motion of nodes", "node", "nodout", ("nodes",), (
         _vector("displacement", _LENGTH, "displacement", "{}-disp", "{}_displacement"), _vector("velocity", "L/T", "v", "{}-vel", "{}_velocity"),

@@ -21,6 +21,7 @@ from ..units import MODEL_UNITS
 from .kinds import KINDS, Kind, Quantity, Series
 
 _MOST_ROWS = 4000  # of a curve that is drawn
+_BINOUT_IDS = {"Forces of supports": "force_ids", "Moments of supports": "moment_ids"}  # in one folder
 _NO_CURVES = ("time", "wet", "active", "deleted", "x", "position", "centroid", "area", "neighbours", "h", "E")
 _STRESS = tuple(f"sig{{}}{axes}" for axes in ("xx", "yy", "zz", "xy", "yz", "zx"))
 _LEGEND = re.compile(r"[ \t]*([0-9]+)[ \t]+(\S.*)")
@@ -171,6 +172,15 @@ class Sources:
 
     # history.h5
 
+    @cached_property
+    def _names(self) -> dict[str, list[str]]:
+        """Data sets of each group of history.h5."""
+        out: dict[str, list[str]] = {}
+        for path in self.h5:
+            group, _, name = path.rpartition("/")
+            out.setdefault(group, []).append(name)
+        return out
+
     def _title(self, group: str) -> str:
         try:
             title = self.h5._file._h5[group].attrs.get("title", b"")
@@ -180,7 +190,7 @@ class Sources:
 
     def _of_group(self, kind: Kind | None, group: str) -> Entity | None:
         h5 = self.h5
-        names = [path.rpartition("/")[2] for path in h5 if path.rpartition("/")[0] == group]
+        names = self._names[group]
         known: dict[str, Lines] = {}
         for quantity in kind.quantities if kind else ():
             if made := _lines(quantity, lambda s: _component(h5[f"{group}/{s.h5}"], s.component) if s.h5 in names else None):
@@ -212,7 +222,7 @@ class Sources:
         return out
 
     def _of_h5(self, kind: Kind) -> list[Entity]:
-        groups = [group for group in self.h5.groups if group.partition("/")[0] in kind.groups and "/" in group]
+        groups = [group for group in self._names if group.partition("/")[0] in kind.groups and "/" in group]
         made = [self._of_group(kind, group) for group in groups]
         if len(kind.groups) > 1:
             for one, group in zip(made, groups, strict=True):
@@ -237,9 +247,11 @@ class Sources:
         if file is None:
             return []
         titles, out = self.legend(kind.file), []
-        owners = dict.fromkeys(key.id for key in file.columns if key.id is not None)
-        for id in owners:
-            mine = {(key.name, key.side): values for key, values in file.columns.items() if key.id == id}
+        owners: dict[int, dict[tuple[str, str], np.ndarray]] = {}
+        for key, values in file.columns.items():
+            if key.id is not None:
+                owners.setdefault(key.id, {})[key.name, key.side] = values
+        for id, mine in owners.items():
 
             def get(s: Series, mine: dict[tuple[str, str], np.ndarray] = mine) -> np.ndarray | None:
                 return next((values for (name, side), values in mine.items() if name == s.ascii and s.ascii and s.side in ("", side)), None)
@@ -272,20 +284,28 @@ class Sources:
 
     def _of_folder(self, kind: Kind, folder: str) -> list[Entity]:
         file, out = self.binout, []
+        paths = set(file)
         t = file[f"{folder}/time"]
-        ids = np.atleast_1d(file[f"{folder}/ids"]).ravel() if f"{folder}/ids" in file else np.empty(0)
+        ids_of = next((name for name in (_BINOUT_IDS.get(kind.title, "ids"), "ids") if f"{folder}/{name}" in paths), "")
+        ids = np.atleast_1d(file[f"{folder}/{ids_of}"]).ravel() if ids_of else np.empty(0)
+        tables = {path: file[path] for path in paths if path.rpartition("/")[0] == folder}
+
+        def one_of(path: str, id: int) -> np.ndarray:
+            """A column of the table where all states have the same entities."""
+            found = tables[path].reshape(len(t), -1) if tables[path].size == len(t) * len(ids) and len(t) else np.empty((0, 0))
+            return found[:, int(np.flatnonzero(ids == id)[0])] if found.size else file.of(path, id)
         titles = self._binout_titles(folder)
         for id in dict.fromkeys(int(one) for one in ids[np.isfinite(ids)]):
 
             def get(s: Series, id: int = id) -> np.ndarray | None:
-                if not s.binout or f"{folder}/{s.binout}" not in file:
+                if not s.binout or f"{folder}/{s.binout}" not in paths:
                     return None
-                values = file.of(f"{folder}/{s.binout}", id)
+                values = one_of(f"{folder}/{s.binout}", id)
                 return values if values.ndim == 1 else values[:, 0]
 
             known = {q.label: made for q in kind.quantities if (made := _lines(q, get))}
             names = [name.format("_") for name in _STRESS]
-            if kind.file == "elout" and all(f"{folder}/{name}" in file for name in names):
+            if kind.file == "elout" and all(f"{folder}/{name}" in paths for name in names):
                 tensor = np.stack([file.of(f"{folder}/{name}", id).reshape(len(t), -1) for name in names], axis=-1)
                 curves = [(f"point {k + 1}", mises(tensor[:, k])) for k in range(tensor.shape[1])]
                 known["von Mises stress"] = Lines("von Mises stress", "M/LT2", curves)
@@ -327,7 +347,7 @@ class Sources:
             return []
         known = {"global", *(group for kind in KINDS for group in kind.groups)}
         by_name: dict[str, list[Entity]] = {}
-        for group in self.h5.groups:
+        for group in self._names:
             name = group.partition("/")[0]
             if name not in known and (made := self._of_group(None, group)) is not None:
                 by_name.setdefault(name, []).append(made)
