@@ -16,7 +16,7 @@ STYLE = """body{font:15px/1.45 system-ui,sans-serif;margin:1.5em auto;max-width:
 h1{font-size:1.5em;margin:.2em 0}h2{font-size:1.2em;border-bottom:1px solid #ccc;margin-top:1.6em}h3{font-size:1.03em;margin:1.2em 0 .2em}
 .scroll{overflow-x:auto}table{border-collapse:collapse;margin:.5em 0;overflow-wrap:normal}td,th{padding:.15em .9em .15em 0;text-align:left;vertical-align:top}
 thead th{border-bottom:1px solid #ccc;font-weight:600}tbody th{font-weight:500}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-.data td,.data th{white-space:nowrap}
+.data tbody th,.data tbody td{min-width:4.5em}
 figure{display:inline-block;margin:.4em 1em .4em 0;vertical-align:top;max-width:100%}.curves figure{width:31em}img{max-width:100%;height:auto}
 .states{display:block;overflow-x:auto}.states img{max-width:none;width:100%;min-width:34em}.states.narrow img{width:auto;min-width:0;max-width:100%}
 figcaption,.note{color:#555;font-size:.92em}.sound,.healthy{color:#176117}.doubtful{color:#9a5b00}.broken,.error{color:#a11}

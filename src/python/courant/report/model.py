@@ -29,10 +29,13 @@ _LOADS = ("load", "gravity", "pressure on", "blast", "damping", "motion given", 
 
 
 def messag(run: Results) -> str:
+    """The log; of a long one its begin and its end."""
     try:
-        return (run.folder / "messag").read_bytes()[:4_000_000].decode("utf-8", "replace")
+        data = (run.folder / "messag").read_bytes()
     except OSError:
         return ""
+    data = data if len(data) < 4_000_000 else data[:3_000_000] + b"\n" + data[-1_000_000:]
+    return data.decode("utf-8", "replace")
 
 
 def _glstat(run: Results) -> str:
