@@ -15,7 +15,7 @@ from .post.view_fields import mises
 from .results import Mesh, Results, RunState, States
 
 _UNITS = {"velocity": "L/T", "acceleration": "L/T2", "displacement": "L", "stress": "M/LT2", "von_mises": "M/LT2", "pressure": "M/LT2", "density": "M/L3"}
-_UNITS |= {"mass": "M", "smoothing_length": "L", "shell_thickness": "L", "axial_force": "ML/T2", "plastic_strain": "-"}
+_UNITS |= {"mass": "M", "smoothing_length": "L", "section_thickness": "L", "axial_force": "ML/T2", "plastic_strain": "-"}
 _LINE, _TRIANGLE, _QUAD, _TETRA, _HEXAHEDRON = 3, 5, 9, 10, 12
 
 
@@ -78,7 +78,7 @@ def _of_kind(kind: str, found: dict[str, np.ndarray], rigid: np.ndarray) -> dict
     thick = np.where(body, 0.0, np.asarray(found.get("thickness", np.ones(count)), dtype=float))
     out = {"id": found["id"], "part": found["part"], "von_mises": np.where(body, np.nan, of_stress), "plastic_strain": np.where(body, np.nan, plastic)}
     out["axial_force"] = found["axial_force"].astype(float) if kind == "beams" and "axial_force" in found else nothing
-    return out | ({"shell_thickness": thick} if kind == "shells" else {})
+    return out | ({"section_thickness": thick} if kind == "shells" else {})
 
 
 class D3plotRunState(RunState):

@@ -9,6 +9,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..diagnostics import CourantError
 from ..optional import MissingModule
 
@@ -61,7 +63,8 @@ def picture(figure: Any, caption: str, kind: str = "", dpi: int = 100) -> str:
 def attempt(make: Callable[[], str], what: str) -> str:
     """What cannot be read or drawn is said instead."""
     try:
-        return make()
+        with np.errstate(all="ignore"):  # of runs that have blown up
+            return make()
     except CourantError as fault:
         first = fault.diagnostics.all[0]
         return paragraph(f"{what}: {first.message} ({Path(first.where.file).name})" + (f"; {first.hint}" if first.hint else ""))
