@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .curves import Gallery
+from .curves import Gallery, name_of
 from .html import paragraph, table
 from .sources import Sources, summary_of, unit_names
 
@@ -48,6 +48,8 @@ def differences(sources: Sequence[Sources], names: Sequence[str]) -> str:
                 rows.append([f"{name.replace('_', ' ')} energy at the end" if "work" not in name else f"{name.replace('_', ' ')} at the end", left, right,
                              unit("ML2/T2"), _change(left, right)])
     only, left = [], 0
+    if sources[0].run.units != sources[1].run.units:
+        only.append("the units of the two runs differ: numbers are compared as they are, under the units of the first")
     for found in Gallery(sources, names).all_found():
         title = found[0][1].kind.title
         if len(found) < 2:
@@ -59,7 +61,7 @@ def differences(sources: Sequence[Sources], names: Sequence[str]) -> str:
         left += sum(id not in largest for id, _ in both)
         for id, label in both:
             if id in largest:
-                lines, word = mine[id, label][1], f"{found[0][1].kind.noun} {id}".strip()
+                lines, word = mine[id, label][1], name_of(found[0][1].kind.noun, mine[id, label][0])
                 peaks = lines.peak, other[id, label][1].peak
                 rows.append([f"{word}: largest {label}", *peaks, unit(lines.dimension, label), _change(*peaks)])
         lone = len(set(mine) ^ set(other))

@@ -66,7 +66,7 @@ def _draw_lines(axes: Any, entity: Entity, lines: Lines, run: int, runs: int, na
         draw(axes, entity.t, values, label=f"{word} ({name})" if runs > 1 else word, **look)
 
 
-def _name(kind_noun: str, entity: Entity) -> str:
+def name_of(kind_noun: str, entity: Entity) -> str:
     if not entity.id:
         return entity.title
     if entity.title and entity.title.split(":")[0].endswith(f" {entity.id}"):
@@ -107,7 +107,7 @@ class Gallery:
 
     def _of_entity(self, noun: str, pairs: list[tuple[int, Entity]]) -> tuple[str, list[str]]:
         """The pictures of one entity, and which quantities are zero all the time."""
-        out, zero, title = "", [], _name(noun, pairs[0][1])
+        out, zero, title = "", [], name_of(noun, pairs[0][1])
         for label in dict.fromkeys(label for _, one in pairs for label in one.lines):
             some = [(run, one) for run, one in pairs if label in one.lines]
             if max(len(one.t) for _, one in some) < 2:
@@ -133,7 +133,7 @@ class Gallery:
                 if entity.id in shown:
                     look = styles(shown.index(entity.id))
                     look |= {"linestyle": _OF_RUN[run]} if len(self.names) > 1 else {}
-                    word = _name(kind.noun, entity)[:34]
+                    word = name_of(kind.noun, entity)[:34]
                     draw(axes, entity.t, entity.lines[label].curves[0][1], label=f"{word} ({self.names[run]})" if len(self.names) > 1 else word, **look)
             legend(axes)
             self.left -= 1
@@ -150,7 +150,7 @@ class Gallery:
                         at = int(np.nanargmax(lines.size))
                         last = float(lines.size[np.flatnonzero(np.isfinite(lines.size))[-1]])
                         unit = self.unit(lines.dimension, label)
-                        row = [_name(one.kind.noun, entity), label, lines.peak, float(entity.t[at]), last, unit]
+                        row = [name_of(one.kind.noun, entity), label, lines.peak, float(entity.t[at]), last, unit]
                         rows.append(row if len(self.names) == 1 else [*row[:2], self.names[run], *row[2:]])
         head = ["", "", *([] if len(self.names) == 1 else ["run"]), "largest size", f"at t [{self.unit_t}]", "at the end", "unit"]
         return table(rows, head)
@@ -286,4 +286,4 @@ def _spoken(name: str) -> str:
     return name.replace("_", " ").strip()
 
 
-__all__ = ["Gallery", "energies", "time_steps"]
+__all__ = ["Gallery", "energies", "name_of", "time_steps"]
