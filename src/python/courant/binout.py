@@ -180,12 +180,20 @@ class BinoutFile(Mapping[str, np.ndarray]):
         """ "glstat", "rwforc/forces", ...: folders with states."""
         return sorted({path.rpartition("/")[0] for path in self._states})
 
+    def _lacking(self, history: str, what: str) -> Exception:
+        """Why a history cannot be read: KeyError where it is not there, BinoutFault where there is damage."""
+        known = self.histories
+        if any(f"{name}/".startswith(f"{history}/") for name in known):
+            return BinoutFault(f"'{history}' has no {what}: the file is damaged, or was cut off")
+        return KeyError(f"binout has no '{history}'; it has {', '.join(known)}")
+
     def series(self, history: str) -> dict[str, np.ndarray]:
-        """Arrays of a history and the folders in it over time, (states,) each: "z_displacement_5", "shell_sig_xx_7_point_2". Raises KeyError."""
+        """Arrays of a history and the folders in it over time, (states,) each: "z_displacement_5", "shell_sig_xx_7_point_2". Raises KeyError
+        where there is none, BinoutFault where it is damaged."""
         out: dict[str, np.ndarray] = {}
         paths = [path for path in self._states if path.startswith(f"{history}/") and path.rpartition("/")[2] not in ("ids", "nip", "time")]
         if not paths:
-            raise KeyError(f"binout has no '{history}'; it has {', '.join(self.histories)}")
+            raise self._lacking(history, "values")
         for path in paths:
             folder, _, name = path.rpartition("/")
             word = "_".join([*folder.split("/")[1:], name])
@@ -206,10 +214,10 @@ class BinoutFile(Mapping[str, np.ndarray]):
         return out
 
     def times(self, history: str) -> np.ndarray:
-        """Times of the states of a history, (states,) [T]; of the first of its folders. Raises KeyError."""
+        """Times of the states of a history, (states,) [T]; of the first of its folders. Raises KeyError, BinoutFault."""
         path = next((path for path in sorted(self._states) if path.startswith(f"{history}/") and path.endswith("/time")), "")
         if not path:
-            raise KeyError(f"binout has no '{history}'; it has {', '.join(self.histories)}")
+            raise self._lacking(history, "times")
         return self[path]
 
     def text(self, path: str) -> str:

@@ -54,13 +54,17 @@ class _Reader:
 
 
 class D3plotFile:
-    """A family by the path of its first file. `times`: (states,) [T]; `nodes`, `ids`: numbers of the deck; `parts`: title by part number.
+    """A family by the path of its first file. `times`: (states,) [T]; `nodes`, `ids`: numbers of the deck; `parts`: title by part number;
+    `warnings`: what is missing of the family, or cut off; the states that are whole count.
 
     Raises D3plotFault, OSError.
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(path)
+        self.path, self.warnings = Path(path), []
+        if not self.path.exists() and (behind := _files_behind(self.path)):
+            names = behind[0].name + (f" to {behind[-1].name}" if len(behind) > 1 else "")
+            raise D3plotFault(f"it is gone: {names} hold states, but the nodes and elements were in {self.path.name}")
         data = self.path.read_bytes()
         width, order = _layout(data)
         self._words = _Reader(data, width, order)
@@ -206,19 +210,31 @@ class D3plotFile:
         self._states: list[tuple[Path, int]] = []
         times: list[float] = []
         size = at * words.width
-        files = [(self.path, self._states_at)] + [(file, 0) for file in _files_behind(self.path)]
-        for file, begin in files:
+        behind = _files_behind(self.path)
+        self._note_gaps(behind)
+        for file, begin in [(self.path, self._states_at), *((file, 0) for file in behind)]:
             length = file.stat().st_size
             with open(file, "rb") as stream:
                 while begin + words.width <= length:
                     stream.seek(begin)
                     t = float(np.frombuffer(stream.read(words.width), words.real)[0])
-                    if t == _END or begin + size > length or not np.isfinite(t):
+                    if t == _END:
+                        break
+                    if begin + size > length or not np.isfinite(t):
+                        why = "is cut off" if begin + size > length else "has a time that is no number"
+                        self.warnings.append(f"{file.name}: a state {why} and is left out")
                         break
                     self._states.append((file, begin))
                     times.append(t)
                     begin += size
         self.times = np.array(times)
+
+    def _note_gaps(self, behind: list[Path]) -> None:
+        """Files of the family that are not there."""
+        numbers = [int(file.name[len(self.path.name) :]) for file in behind]
+        if missing := sorted(set(range(1, max(numbers, default=0))) - set(numbers)):
+            names = ", ".join(f"{self.path.name}{number:02d}" for number in missing[:5]) + (", ..." if len(missing) > 5 else "")
+            self.warnings.append(f"{names}: not there, so that states are missing")
 
     def __len__(self) -> int:
         return len(self._states)

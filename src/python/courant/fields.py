@@ -290,7 +290,7 @@ def read_states(folder: str | os.PathLike[str], diagnostics: Diagnostics, *, wit
     file = folder / "fields.pvd"
     hint = "DIR must be the folder that `courant run -o DIR` wrote"
     if not file.is_file():
-        if (folder / "summary.yaml").is_file():
+        if (folder / "summary.yaml").is_file() or (folder / "messag").is_file():
             diagnostics.error(file, "the run has written no states", "*DATABASE_BINARY_D3PLOT asks for them")
         else:
             diagnostics.error(file, "no results here: the file is missing", hint)

@@ -52,7 +52,9 @@ class HistoryFile:
         """Faults are reported; then there is None."""
         path = Path(file)
         if not path.is_file():
-            diagnostics.error(path, "no histories here: the file is missing", "the deck needs a *DATABASE_GLSTAT card")
+            killed = (path.parent / "messag").is_file() and not (path.parent / "summary.yaml").is_file()
+            hint = "it comes at intervals and at the end of a run: this one goes on, or was killed; text files and binout have the rows so far"
+            diagnostics.error(path, "no histories here: the file is missing", hint if killed else "the deck needs a *DATABASE_GLSTAT card")
             return None
         try:
             data = path.read_bytes()

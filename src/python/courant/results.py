@@ -15,14 +15,14 @@ state.pyvista().plot(scalars="pressure")
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import Any, overload
+from typing import Any, NoReturn, overload
 
 import numpy as np
-import yaml
 
 from .ascii_histories import ASCII_NAMES, AsciiFile
 from .ascii_kinds import column_name
@@ -33,6 +33,7 @@ from .fields import FieldFault, FieldFile, StateFiles, find_ids, read_states
 from .files import write_figure
 from .histories import HistoryFile
 from .optional import module
+from .summary_file import read_summary
 from .surface_mesh import NoSurface, SurfaceMesh, surface_mesh
 from .tables import Table, table_of
 from .units import MODEL_UNITS, Dimension, Units, units_of_summary
@@ -51,6 +52,12 @@ def open(folder: str | PathLike[str], units: Units | None = None) -> Results:  #
 def _raised(diagnostics: Diagnostics) -> None:
     if not diagnostics.ok:
         raise CourantError(diagnostics)
+
+
+def _raised_of(file: Path, message: str, fault: Exception) -> NoReturn:
+    diagnostics = Diagnostics()
+    diagnostics.error(file, message)
+    raise CourantError(diagnostics) from fault
 
 
 class Mesh:
@@ -74,6 +81,8 @@ class Mesh:
             return self._file.values(section, name, self._file.points if section in ("PointData", "Points") else self._file.cells)
         except FieldFault as fault:
             raise self._error(str(fault)) from fault
+        except KeyError as fault:
+            raise self._error(f"it has no array '{name}' in <{section}>") from fault
 
     @property
     def names(self) -> list[str]:
@@ -367,15 +376,24 @@ class Results:
 
     @cached_property
     def states(self) -> States:
+        """Those of the field files; of a folder without them, those of its d3plot."""
         diagnostics = Diagnostics()
         files = read_states(self.folder, diagnostics, with_particles=False)
+        if not files and any(self.folder.glob("d3plot*")):
+            from .d3plot_states import D3plotStates
+
+            if len(self.d3plot):
+                return D3plotStates(self.d3plot, self)
         _raised(diagnostics)
         return States(files, self)
 
     @cached_property
     def d3plot(self) -> D3plotFile:
-        """The d3plot family of the folder, of Courant or LS-DYNA: `len(d3plot)`, `d3plot.times`, `d3plot.state(-1).nodes["position"]`."""
-        return self._read(self.folder / "d3plot", D3plotFile, "no d3plot here", "`courant run --d3plot` writes one")
+        """The d3plot family of the folder, of Courant or LS-DYNA: `len(d3plot)`, `d3plot.times`, `d3plot.state(-1).nodes["position"]`.
+        What its family lacks is a warning on standard error, and in `d3plot.warnings`."""
+        file = self._read(self.folder / "d3plot", D3plotFile, "no d3plot here", "`courant run --d3plot` writes one")
+        sys.stderr.write("".join(f"{self.folder / 'd3plot'}: warning: {one}\n" for one in file.warnings))
+        return file
 
     @cached_property
     def binout(self) -> BinoutFile:
@@ -386,7 +404,7 @@ class Results:
     def _read(self, file: Path, read: Callable[[Path], Any], missing: str, hint: str) -> Any:
         diagnostics = Diagnostics()
         try:
-            if file.is_file():
+            if file.is_file() or any(self.folder.glob(f"{file.name}[0-9][0-9]")):  # of a family without its first file the reader says why
                 return read(file)
             diagnostics.error(file, missing, hint)
         except (D3plotFault, BinoutFault) as fault:
@@ -401,13 +419,7 @@ class Results:
         file = self.folder / "summary.yaml"
         if not file.is_file():
             return {}
-        try:
-            found = yaml.safe_load(file.read_bytes())
-        except yaml.YAMLError as fault:
-            diagnostics = Diagnostics()
-            diagnostics.error(file, f"not valid YAML: {' '.join(str(fault).split())}")
-            raise CourantError(diagnostics) from fault
-        return found if isinstance(found, dict) else {}
+        return read_summary(file)
 
     @property
     def verdict(self) -> str:
@@ -478,9 +490,16 @@ class Results:
         return self.ascii[name] if name in list(self.ascii) or not binout_files(self.folder) else self.binout_table(name)
 
     def binout_table(self, name: str) -> Table:
-        """A history of binout over time; columns are named as binout and the ids have them: z_displacement_5. Raises KeyError."""
-        series = [(key, self.units.of_text("?"), values) for key, values in self.binout.series(name).items()]
-        return table_of(name, [("t", self.units.of(Dimension(T=1)), self.binout.times(name)), *series])
+        """A history of binout over time; columns are named as binout and the ids have them: z_displacement_5. Raises KeyError, CourantError."""
+        file = self.binout
+        try:
+            t, series = file.times(name), file.series(name)
+            for key, values in series.items():
+                if len(values) != len(t):
+                    raise BinoutFault(f"'{name}' has {len(t)} times and {len(values)} values of '{key}': the file is damaged, or was cut off")
+        except BinoutFault as fault:
+            _raised_of(binout_files(self.folder)[0], f"it cannot be read: {fault}", fault)
+        return table_of(name, [("t", self.units.of(Dimension(T=1)), t), *((key, self.units.of_text("?"), values) for key, values in series.items())])
 
     def plot(
         self, what: str = "energies", *names: str, field: str | None = None, t: float | None = None, file: str | Path | None = None, **keys: Any

@@ -115,3 +115,18 @@ def standing_azimuth(extent: np.ndarray, up: str) -> float:
     right = "xyz".index("y" if up[-1] == "x" else "x")
     depth = ({0, 1, 2} - {right, "xyz".index(up[-1])}).pop()
     return 60.0 if extent[depth] > 1.5 * extent[right] else 30.0
+
+
+def plane_of(corners: np.ndarray, share: float = 1e-3) -> str:
+    """The axis along which a scene has no extent next to its others, "z"; "" of scenes in space. corners: (n, 3) [L]."""
+    extent = np.ptp(corners, axis=0)
+    flat = np.flatnonzero(extent <= share * extent.max())
+    return "xyz"[flat[0]] if len(flat) == 1 else ""
+
+
+def front_of(normal: str, up: str) -> tuple[str, float, float]:
+    """Up, azimuth and elevation that show a plane scene from the front. `normal`: of its plane; `up`: kept where it lies in the plane."""
+    if up[-1] == normal:
+        up = "y" if normal == "z" else "z"
+    right = "y" if up[-1] == "x" else "x"
+    return up, 90.0 if normal == right else 0.0, 0.0

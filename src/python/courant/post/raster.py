@@ -6,6 +6,7 @@ import numpy as np
 
 LIGHT = np.array([-0.35, 0.55, 0.76])  # in the picture's axes: from the upper left, behind the eye
 LIGHT /= np.sqrt((LIGHT**2).sum())
+_MANY, _SMALL = 20000, 6.0  # faces from which on those of less than so many pixels are drawn together
 _AMBIENT = 0.78  # of the brightness, so that colours stay those of the colour bar
 
 
@@ -74,6 +75,10 @@ class Raster:
         toward = np.where(normals[:, 2:] < 0, -1, 1) * normals
         shine = _AMBIENT + (1 - _AMBIENT) * np.clip(toward @ LIGHT, 0, 1)
         each = np.broadcast_to(colour[:, None], (len(corners), 4, 3)) if colour.ndim == 2 else colour
+        if len(corners) > _MANY:
+            small = np.ptp(at[corners, :2], axis=1).max(axis=1) < _SMALL
+            self._small_faces(at[corners[small]], each[small] * shine[small, None, None])
+            corners, shine, each = corners[~small], shine[~small], each[~small]
         for face, (points, light) in enumerate(zip(corners, shine, strict=True)):
             for three in ((0, 1, 2), (0, 2, 3)):
                 found = self._cover(at[points[list(three)]])
@@ -88,6 +93,33 @@ class Raster:
                 self.depth[where][inside] = depth[inside]
                 self.colour[where][inside] = shade[inside]
                 self.lit[where][inside] = True
+
+    def _small_faces(self, at: np.ndarray, colour: np.ndarray) -> None:
+        """All faces of a few pixels at once, without their sides. at: (n, 4, 3) [pixels, depth L]; colour: (n, 4, 3)."""
+        order = np.argsort(at[..., 2].mean(axis=1), kind="stable")  # of those that meet in a pixel the nearest one is kept
+        at, colour, (height, width) = at[order], colour[order], self.size
+        for three in ([0, 1, 2], [0, 2, 3]):
+            x, y = at[:, three, 0], at[:, three, 1]
+            (ax, bx, cx), (ay, by, cy) = x.T, y.T
+            area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+            first, steps = np.floor(np.stack((x.min(axis=1), y.min(axis=1)))).astype(int), range(int(_SMALL) + 2)
+            for dr in steps:
+                for dc in steps:
+                    column, row = first[0] + dc, first[1] + dr
+                    px, py = column + 0.5, row + 0.5
+                    with np.errstate(divide="ignore", invalid="ignore"):
+                        second = ((px - ax) * (cy - ay) - (py - ay) * (cx - ax)) / area
+                        third = ((bx - ax) * (py - ay) - (by - ay) * (px - ax)) / area
+                    weight = np.stack((1 - second - third, second, third), axis=1)
+                    inside = (weight >= -1e-9).all(axis=1) & (np.abs(area) > 1e-12) & (column >= 0) & (column < width) & (row >= 0) & (row < height)
+                    seen = np.flatnonzero(inside)
+                    depth = (weight[seen] * at[seen][:, three, 2]).sum(axis=1)
+                    nearer = depth > self.depth[row[seen], column[seen]]
+                    seen, depth = seen[nearer], depth[nearer]
+                    to = row[seen], column[seen]
+                    self.depth[to] = depth
+                    self.colour[to] = (weight[seen][..., None] * colour[seen][:, three]).sum(axis=1)
+                    self.lit[to] = True
 
     @staticmethod
     def _side_shade(weight: np.ndarray, corners: np.ndarray, three: tuple[int, ...], triangle: bool) -> np.ndarray:

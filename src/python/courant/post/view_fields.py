@@ -72,9 +72,26 @@ def field_names(mesh: Any) -> list[str]:
         out += ["speed"] * (name == "velocity") + [name] * whole + parts
     if mesh.has_displacement:
         out += ["displacement", *(f"displacement.{axis}" for axis in _VECTOR)]
+    if _layers_of_mises(mesh):
+        out.append("von_mises")
     if _has_vorticity(mesh):
         out += ["vorticity"] + [f"vorticity.{axis}" for axis in _VECTOR if not _is_flat(mesh)]
     return list(dict.fromkeys(out))
+
+
+def _layers_of_mises(mesh: Any) -> list[str]:
+    """Arrays from which the largest von Mises stress of a cell follows, where the file has none: of the layers of shells, else stress tensors."""
+    cells = mesh._file.names("CellData")
+    if "von_mises" in cells or mesh.path.suffix == ".vtp":
+        return []
+    return [name for name in cells if name.startswith("von_mises_")] or [name for name in cells if name.partition("_")[0] == "stress"]
+
+
+def _largest_mises(mesh: Any) -> np.ndarray:
+    """(cells,), NaN where no layer has one."""
+    some = [np.asarray(mesh[name], dtype=float) for name in _layers_of_mises(mesh)]
+    with np.errstate(invalid="ignore"):
+        return np.fmax.reduce([mises(one) if one.ndim > 1 else one for one in some])
 
 
 def _has_vorticity(mesh: Any) -> bool:
@@ -104,6 +121,8 @@ def field_of(mesh: Any, name: str) -> FieldValues:
         if lacking:
             hint = f"it is made of {', '.join(_OF_VORTICITY)}, and the file lacks {', '.join(lacking)}: `missing` of a recipe may give density and smoothing_length"
         raise UnknownField(f"{mesh.path} has no field '{name}'; {hint}")
+    if name == "von_mises" and (layers := _layers_of_mises(mesh)):
+        return FieldValues(name, _largest_mises(mesh), mesh.unit(layers[0]), "elements")
     array, _, part = ("velocity" if name == "speed" else name).partition(".")
     made = array == "vorticity" and _has_vorticity(mesh)
     values = _vorticity(mesh) if made else mesh[array].astype(float)
@@ -154,7 +173,7 @@ def shells_that_deform(mesh: Any) -> np.ndarray:
 def faces_of(mesh: Any) -> Faces:
     """The faces of a .vtu file that can be seen: inner faces between solids are left out."""
     cells = mesh.cells
-    types = mesh._file.values("Cells", "types", len(cells)) if cells else np.empty(0, np.uint8)
+    types = mesh._values("Cells", "types") if cells else np.empty(0, np.uint8)
     corners: list[list[int]] = []
     cell: list[int] = []
     solid: list[bool] = []
@@ -175,6 +194,26 @@ def faces_of(mesh: Any) -> Faces:
         _, first, times = np.unique(np.sort(table, axis=1), axis=0, return_inverse=True, return_counts=True)
         out = out.part_of(~inside | (times[first] == 1))
     return out
+
+
+@dataclass
+class Bars:
+    """Beams, trusses and springs: `x`: (bars, 2, 3) [L]; `cell`, `part`: (bars,)."""
+
+    x: np.ndarray
+    cell: np.ndarray
+    part: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+
+def bars_of(mesh: Any) -> Bars:
+    """The cells of two corners of a .vtu file."""
+    cells = [(k, of) for k, of in enumerate(mesh.cells) if len(of) == 2 and of[0] != of[1]]
+    at = np.array([k for k, _ in cells], dtype=int)
+    part = np.asarray(mesh["part"])[at] if "part" in mesh.names else np.zeros(len(at))
+    return Bars(mesh.points[np.array([of for _, of in cells], dtype=int).reshape(-1, 2)], at, part)
 
 
 def joined_faces(some: list[Faces]) -> Faces | None:

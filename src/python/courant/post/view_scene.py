@@ -13,7 +13,7 @@ from ..optional import module
 from ..yaml_map import key
 from .camera import AXES, PROJECTIONS
 from .figures import COLOURS
-from .view_fields import Faces, FieldValues, UnknownField, faces_of, field_names, field_of, joined_faces, mirrored
+from .view_fields import Bars, Faces, FieldValues, UnknownField, bars_of, faces_of, field_names, field_of, joined_faces, mirrored
 
 
 OF, WALLS = ("", "particles", "elements"), ("transparent", "outlined", "none")
@@ -52,6 +52,7 @@ class View:
     theory_label: str = "theory"
     animate: str = key("choice", "", words=("", "gif", "mp4"))
     rate: float = key("positive", 12.0)
+    bare: tuple[int, ...] = ()  # parts without colour, as rigid ones, whose stress means nothing
 
     def __post_init__(self) -> None:
         """Raises ValueError where a word is none of those that there are; recipes have reported before."""
@@ -66,7 +67,8 @@ class View:
 @dataclass
 class Scene:
     """`x`: (n, 3) and `V`: (n,) of the particles, in the plane an area [L2]; `h`: (n,) [L]; `values`: (n,) in the unit shown, None where
-    elements are coloured; `faces` with `colours`: (faces, 4) values at their corners; `walls`: faces without colour."""
+    elements are coloured; `faces` with `colours`: (faces, 4) values at their corners; `walls`: faces without colour; `bars`: (bars, 2, 3)
+    ends of beams and springs [L] with `bar_values`: (bars,), NaN of those without colour."""
 
     t: float
     flat: bool
@@ -78,16 +80,18 @@ class Scene:
     colours: np.ndarray | None
     walls: Faces | None
     label: str
+    bars: np.ndarray = dataclasses.field(default_factory=lambda: np.empty((0, 2, 3)))
+    bar_values: np.ndarray = dataclasses.field(default_factory=lambda: np.empty(0))
 
     @property
     def shown(self) -> np.ndarray:
         """All values that get colours, (m,)."""
-        return np.concatenate([one.ravel() for one in (self.values, self.colours) if one is not None])
+        return np.concatenate([one.ravel() for one in (self.values, self.colours, self.bar_values[np.isfinite(self.bar_values)]) if one is not None])
 
     def corners(self) -> np.ndarray:
         """All points that must be in the picture, (n, 3) [L]."""
         used = [one.x[np.unique(one.corners)] for one in (self.faces, self.walls) if one is not None and len(one)]
-        return np.concatenate([self.x, *used])
+        return np.concatenate([self.x, self.bars.reshape(-1, 3), *used])
 
 
 def _chosen(state: Any, view: View) -> list[tuple[Any, FieldValues]]:
@@ -117,7 +121,7 @@ def _chosen(state: Any, view: View) -> list[tuple[Any, FieldValues]]:
 def spoken(name: str) -> str:
     """ "stress_upper.mises" -> "stress upper, von Mises"."""
     array, _, part = name.partition(".")
-    return array.replace("_", " ") + {"": "", "mises": ", von Mises", "mean": ", mean"}.get(part, f" {part}")
+    return array.replace("_", " ").replace("von mises", "von Mises") + {"": "", "mises": ", von Mises", "mean": ", mean"}.get(part, f" {part}")
 
 
 def _within(x: np.ndarray, window: tuple[Any, ...]) -> np.ndarray:
@@ -146,25 +150,57 @@ def _particles(mesh: Any, view: View, values: np.ndarray, flat: bool) -> tuple[n
     return mesh.points[on], V[on], mesh["smoothing_length"].astype(float)[on], values[on] * view.factor
 
 
+def _solid_parts(state: Any, chosen: dict[Any, FieldValues]) -> np.ndarray:
+    """Parts whose faces for contact in the file of shells would hide, without a stress, the faces of the solids that they are."""
+    shells, solids = state.shells, state.solids
+    if shells is None or solids is None or shells.path == solids.path or (shells.path in chosen) > (solids.path in chosen) or "part" not in solids.names:
+        return np.empty(0)
+    volumes = np.array([len(cell) > 3 for cell in solids.cells], dtype=bool)
+    return np.unique(np.asarray(solids["part"])[volumes])
+
+
 def _elements(state: Any, view: View, chosen: dict[Any, FieldValues], flat: bool) -> tuple[Faces | None, np.ndarray | None, Faces | None]:
     """Faces that get colours, values at their corners, and other faces: walls. Faces without a finite value are walls, too."""
     shown: list[Faces] = []
     values: list[np.ndarray] = []
     others: list[Faces] = []
+    solid = _solid_parts(state, chosen)
     for mesh in state.elements:
         every = faces_of(mesh)
+        if len(solid) and mesh.path != state.solids.path:
+            every = every.part_of(~np.isin(every.part, solid))
         if not flat:
             every = every.part_of(_within(every.x[every.corners].mean(axis=1), view.window))
         if mesh.path not in chosen:
             others.append(every)
             continue
         at = _face_values(chosen[mesh.path], every)
-        known = np.isfinite(at).all(axis=1)
+        known = np.isfinite(at).all(axis=1) & ~np.isin(every.part, view.bare)
         shown.append(every.part_of(known))
         values.append(at[known] * view.factor)
         others.append(every.part_of(~known))
     faces = joined_faces(shown)
     return faces, None if faces is None else np.concatenate(values), joined_faces(others)
+
+
+def _bar_values(found: FieldValues | None, mesh: Any, bars: Bars) -> np.ndarray:
+    """(bars,), of nodes the mean of both ends; NaN of files without the field."""
+    if found is None:
+        return np.full(len(bars), np.nan)
+    if found.at == "nodes":
+        return np.array([found.values[mesh.cells[k]].mean() for k in bars.cell])
+    return found.values[bars.cell]
+
+
+def _bars(state: Any, view: View, chosen: dict[Any, FieldValues]) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of beams and springs within the window, and their values in the unit shown."""
+    every = [(mesh, bars_of(mesh)) for mesh in state.elements]
+    x = np.concatenate([np.empty((0, 2, 3)), *(bars.x for _, bars in every)])
+    values = np.concatenate([np.empty(0), *(_bar_values(chosen.get(mesh.path), mesh, bars) for mesh, bars in every)])
+    if view.bare and len(x):
+        values[np.isin(np.concatenate([bars.part for _, bars in every]), view.bare)] = np.nan
+    inside = _within(x.mean(axis=1), view.window) & np.isfinite(x).all(axis=(1, 2))
+    return x[inside], values[inside] * view.factor
 
 
 def _mirror_sign(name: str, axis: str, flat: bool) -> int:
@@ -185,8 +221,10 @@ def scene_of(state: Any, view: View) -> Scene:
     x, V, h, values = np.empty((0, 3)), np.empty(0), np.empty(0), None
     if of_particles:
         x, V, h, values = _particles(mesh, view, found[0][1].values, flat)
-    faces, colours, walls = _elements(state, view, {} if of_particles else {one.path: field for one, field in found}, flat)
-    if not _within(x, view.window).any() and faces is None:
+    chosen = {} if of_particles else {one.path: field for one, field in found}
+    faces, colours, walls = _elements(state, view, chosen, flat)
+    bars, bar_values = (np.empty((0, 2, 3)), np.empty(0)) if flat else _bars(state, view, chosen)
+    if not _within(x, view.window).any() and faces is None and not len(bars):
         raise UnknownField(f"nothing is within the window at t = {state.t:g}")
     for axis in view.mirror:
         a, sign = "xyz".index(axis), _mirror_sign(found[0][1].name, axis, flat)
@@ -195,7 +233,8 @@ def scene_of(state: Any, view: View) -> Scene:
         if values is not None:
             x, values = np.concatenate((x, x * np.where(np.arange(3) == a, -1, 1))), np.concatenate((values, sign * values))
             V, h = np.concatenate((V, V)), np.concatenate((h, h))
-    return Scene(state.t, flat, x, V, h, values, faces, colours, walls, label)
+        bars, bar_values = np.concatenate((bars, bars * np.where(np.arange(3) == a, -1, 1))), np.concatenate((bar_values, sign * bar_values))
+    return Scene(state.t, flat, x, V, h, values, faces, colours, walls, label, bars, bar_values)
 
 
 def scenes_of(run: Any, view: View, times: list[float] | None = None) -> list[Scene]:

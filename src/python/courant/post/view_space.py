@@ -7,12 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..optional import module
-from .camera import Camera, standing_azimuth, up_of
+from .camera import Camera, front_of, plane_of, standing_azimuth, up_of
 from .raster import Raster
 from .view_fields import Faces, outlines
 from .view_scene import Scene, View, colours_of
 
 _FINER = 2  # pixels that are averaged along each side
+_ROD = 1.6  # half the thickness of beams [pixels]
 _ARROW = {"arrowstyle": "-|>", "color": "0.2", "linewidth": 1, "mutation_scale": 7, "shrinkA": 0, "shrinkB": 0}
 _GREY = np.array([0.62, 0.66, 0.70])  # of the veil that walls are
 
@@ -29,8 +30,9 @@ def camera_of(run: Any, view: View, scenes: list[Scene]) -> Camera:
     flat = scenes[0].flat
     up = view.up or up_of(run, flat)
     corners = np.concatenate([one.corners() for one in scenes])
-    azimuth = 0.0 if flat else standing_azimuth(np.ptp(corners, axis=0), up)
-    elevation = 0.0 if flat else 20.0
+    azimuth, elevation = (0.0, 0.0) if flat else (standing_azimuth(np.ptp(corners, axis=0), up), 20.0)
+    if not flat and view.azimuth is None and view.elevation is None and (normal := plane_of(corners)):
+        up, azimuth, elevation = front_of(normal, view.up or up)
     camera = Camera.looking(up, azimuth if view.azimuth is None else view.azimuth, elevation if view.elevation is None else view.elevation)
     return camera.before(corners) if view.projection == "perspective" else camera
 
@@ -71,6 +73,20 @@ def bodies_among(walls: Faces, x: np.ndarray) -> np.ndarray:
         within = ((x >= points.min(axis=0)) & (x <= points.max(axis=0))).all(axis=1)
         out[mine] = bool((count == 2).all()) and within.sum() < 0.5 * max(len(x), 1)
     return out
+
+
+def _draw_bars(raster: Raster, scene: Scene, view: View, camera: Camera, low: float, high: float) -> None:
+    """Beams and springs as rods a few pixels thick, whatever their section."""
+    if not len(scene.bars):
+        return
+    ends = camera.project(scene.bars.reshape(-1, 3)).reshape(-1, 2, 3)
+    pixels = np.ceil(np.hypot(*(ends[:, 1] - ends[:, 0])[:, :2].T) * raster.scale).astype(int)
+    steps = np.clip(pixels, 1, 4 * max(raster.size)) + 1
+    bar = np.repeat(np.arange(len(ends)), steps)
+    share = (np.arange(len(bar)) - np.repeat(np.cumsum(steps) - steps, steps)) / np.repeat(steps - 1, steps)
+    at = ends[bar, 0] + share[:, None] * (ends[bar, 1] - ends[bar, 0])
+    colour = np.where(np.isfinite(scene.bar_values)[:, None], colours_of(np.nan_to_num(scene.bar_values), low, high, view.colours), _GREY)
+    raster.spheres(at, np.full(len(at), _ROD * _FINER / raster.scale), colour[bar])
 
 
 def _draw_bodies(raster: Raster, scene: Scene, view: View, camera: Camera) -> None:
@@ -125,6 +141,7 @@ def render(scene: Scene, view: View, camera: Camera, frame: tuple[float, ...], l
         raster.spheres(camera.project(scene.x), radius * camera.enlarged(scene.x), colours_of(scene.values, low, high, view.colours))
         thick = 2.5 * float(np.median(size))
     _draw_bodies(raster, scene, view, camera)
+    _draw_bars(raster, scene, view, camera, low, high)
     raster.shadows(thick)
     _veils(raster, scene, view, camera)
     return Picture(np.clip(raster.smaller(_FINER), 0, 1), _outline(raster, scene, view, camera))

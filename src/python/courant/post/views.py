@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -85,7 +86,7 @@ def _time(scene: Scene, run: Any) -> str:
 
 def _spread(count: int, view: View, wide: float) -> tuple[int, int]:
     """Rows and columns of panels; wide pictures (width over height) are below each other."""
-    columns = view.columns or (1 if wide > 2.2 else min(count, 2) if wide > 0.8 else min(count, 5))
+    columns = view.columns or (1 if wide > 2.2 else 2 + (count == 3) if wide > 0.8 else 5)
     columns = min(columns, count)
     return math.ceil(count / columns), columns
 
@@ -104,11 +105,13 @@ def _in_plane(run: Any, view: View, scene: Scene) -> bool:
 
 
 def draw_view(
-    run: Any, view: View, scenes: list[Scene] | None = None, limits: tuple[float, float, str] | None = None, others: list[Scene] | None = None
+    run: Any, view: View, scenes: list[Scene] | None = None, limits: tuple[float, float, str] | None = None, others: list[Scene] | None = None,
+    dpi: int = _DPI,
 ) -> Any:
     """Draws a view of a run that `courant.open` gave. Gives matplotlib's figure. Raises UnknownField, CourantError, MissingModule.
 
-    `scenes`, `limits`: the states and the range of the colours, where they are known; `others`: scenes that must fit into the window, too.
+    `scenes`, `limits`: the states and the range of the colours, where they are known; `others`: scenes that must fit into the window, too; `dpi`:
+    pixels per inch of what is rendered.
     """
     plt = pyplot()
     scenes = scenes_of(run, view) if scenes is None else scenes
@@ -123,7 +126,7 @@ def draw_view(
     size = (panel * columns + 1.3, (height + 0.25) * rows + 0.7)
     figure, grid = plt.subplots(rows, columns, figsize=size, squeeze=False, sharex=flat, sharey=flat, constrained_layout=True)
     panels = list(grid.ravel())
-    width = max(200, round(panel * _DPI))
+    width = max(200, round(panel * dpi))
     for axes, scene in zip(panels, scenes, strict=False):
         if camera is None:
             draw_plane(axes, scene, view, frame, (low, high), width, length)
@@ -149,8 +152,8 @@ def _finish(figure: Any, grid: Any, panels: list[Any], view: View, scenes: list[
         if panels[0].get_legend_handles_labels()[1]:
             panels[0].legend(loc="upper left", fontsize=8, ncol=3, framealpha=0.75)
     title = view.title or str(run.summary.get("title", ""))
-    if title:
-        figure.suptitle(title.replace("$", "\\$"), fontsize=10)
+    if title.strip():
+        figure.suptitle(textwrap.fill(title.replace("$", "\\$"), max(20, int(12 * figure.get_figwidth()))), fontsize=10)
 
 
 def _colour_bar(figure: Any, panels: list[Any], view: View, label: str, limits: tuple[float, float, str]) -> None:
