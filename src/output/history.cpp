@@ -288,9 +288,10 @@ void History::flush() {
     c.values.resize(rows_ * static_cast<std::size_t>(c.components), std::numeric_limits<double>::quiet_NaN());
     h5.append(path, c.dimension, c.components, c.values, rows_in_file_);
   }
-  for (auto& [name, own] : gauges_) {
-    if (own.rows == 0) continue;
+  for (auto& [name, samples] : gauges_) {
+    if (samples.rows == 0) continue;
     const std::string group = std::string(gauge_group) + name;
+    auto& own = samples;  // clang 14 captures no names of a structured binding
     std::size_t first = 0;
     const auto append = [&](const std::string& column, const std::string& dimension, int components) {
       const auto count = static_cast<std::size_t>(components);
