@@ -78,8 +78,8 @@ class TiedBuilder {
                     std::move(ties));
   }
 
-  /// Stiffness of springs for ties that should be exact, over that of a penalty with SLSFAC 1: that of
-  /// elements, which leaves them their step.
+  /// Stiffness of springs for ties that should be exact, over that of a penalty with SLSFAC 1: about that of
+  /// elements, with which the step of the elements beside them falls to about half.
   static constexpr Real stiff = 3;
 
   /// Relaxation in front of the run has a time of its own, in which nothing dies.
