@@ -2,10 +2,10 @@
 // file.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -109,9 +109,11 @@ void add_velocity_change(const Deck& deck, const Model& model, World& world, Dia
                                                               Vec(card.vxr, card.vyr, card.vzr)};
     others_rest = others_rest || !card.only();
   }
+  std::unordered_set<Id> known;
+  if (!nodes.empty())
+    for (const ModelNode& node : model.nodes) known.insert(node.id);
   for (const ChangeVelocityNode& card : nodes) {
-    if (std::none_of(model.nodes.begin(), model.nodes.end(),
-                     [&](const ModelNode& node) { return node.id == card.nid; }))
+    if (!known.contains(card.nid))
       deck.error(diagnostics, card, "NID", fmt::format("node {} does not exist", card.nid), "correct the id");
     of_node[card.nid] = {Vec(card.vx, card.vy, card.vz), Vec(card.vxr, card.vyr, card.vzr)};
     others_rest = others_rest || !card.only();

@@ -42,6 +42,8 @@ class DeckReader {
   Treatment note_request(const File& file, std::size_t line, const KeywordLine& keyword,
                          const Location& where);
   void close_requests();
+  /// Of the card at which `data` is, with the value of a parameter; empty: there is none.
+  std::string first_field(const DataLines& data, const KeywordLine& keyword);
   bool refuse_encrypted(const File& file, std::size_t line, const KeywordLine& keyword);
   void check_end(const File& file);
   void note_refused(const File& file, std::size_t line, const std::string& name, KeywordUse& use);

@@ -253,17 +253,19 @@ Treatment DeckReader::note_request(const File& file, std::size_t line, const Key
   if (is_of_parallel_files(name)) return Treatment::honoured;
   const DataLines data(*file.source, line + 1);
   if (data.done() || !name.starts_with("DATABASE_BINARY_")) return refuse(name, where);
-  const int width = keyword.format == CardFormat::long_fields ? 20 : 10;
-  const std::vector<Slice> fields = split_equal(data.line(), width, width);
-  const std::string_view text = fields.empty() ? std::string_view() : fields.front().text;
   Real interval = 0;
-  if (Parameters::is_reference(text))
-    parse_real(parameters_.resolve(text).text, interval);
-  else
-    parse_real(text, interval);
+  parse_real(first_field(data, keyword), interval);
   if (!(interval > 0)) return refuse(name, where);
   requests_.push_back({name, where, interval});
   return Treatment::output_only;
+}
+
+std::string DeckReader::first_field(const DataLines& data, const KeywordLine& keyword) {
+  const int width = keyword.format == CardFormat::long_fields ? 20 : 10;
+  const std::vector<Slice> fields = split_equal(data.line(), width, width);
+  if (fields.empty()) return "";
+  const std::string_view text = fields.front().text;
+  return std::string(Parameters::is_reference(text) ? parameters_.resolve(text).text : text);
 }
 
 void DeckReader::close_requests() {

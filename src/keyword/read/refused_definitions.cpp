@@ -51,13 +51,8 @@ bool DeckReader::defer_definition(const File& file, std::size_t line, const Keyw
   DataLines data(*file.source, line + 1);
   if (!data.done() && keyword.name.ends_with("_TITLE")) data.step();
   if (data.done()) return false;
-  const int width = keyword.format == CardFormat::long_fields ? 20 : 10;
-  const std::vector<Slice> fields = split_equal(data.line(), width, width);
-  if (fields.empty()) return false;
-  const std::string_view text = fields.front().text;
   Id id = 0;
-  if (!parse_integer(Parameters::is_reference(text) ? parameters_.resolve(text).text : text, id))
-    return false;
+  if (!parse_integer(first_field(data, keyword), id)) return false;
   const IdOffsets& offsets = deck_.files[static_cast<std::size_t>(file.index)].conversion.offsets;
   definitions_.push_back({keyword.name, deck_.location(file.index, static_cast<int>(line) + 1, 1), space,
                           offsets.shifted(space, id)});
