@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <system_error>
 
@@ -41,13 +42,39 @@ std::filesystem::path D3plotFamily::file(int index) const {
 }
 
 void D3plotFamily::remove_from(int index) {
+  const std::filesystem::path head = result_path(dir_, result_names::d3plot);
+  const std::string name = head.filename().string();
   std::error_code error;
-  for (; std::filesystem::exists(file(index), error); ++index)
-    if (!std::filesystem::remove(file(index), error)) throw OutputError(file(index), error.message());
+  for (const auto& entry : std::filesystem::directory_iterator(head.parent_path(), error)) {  // with gaps
+    const std::string other = entry.path().filename().string();
+    int number = 0;
+    if (other.rfind(name, 0) != 0 ||
+        std::from_chars(other.data() + name.size(), other.data() + other.size(), number).ptr !=
+            other.data() + other.size() ||
+        number < index)
+      continue;
+    if (!std::filesystem::remove(entry.path(), error)) throw OutputError(entry.path(), error.message());
+  }
+}
+
+bool D3plotFamily::has_head() const {
+  std::error_code none;
+  return std::filesystem::exists(result_path(dir_, result_names::d3plot), none);
+}
+
+bool D3plotFamily::has_states(int number) const {
+  std::error_code none;
+  for (int index = 1; index <= (number + states_in_file_ - 1) / states_in_file_; ++index)
+    if (!std::filesystem::exists(file(index), none)) return false;
+  return true;
 }
 
 void D3plotFamily::begin(std::string_view model) {
   remove_from(1);
+  write_head(model);
+}
+
+void D3plotFamily::write_head(std::string_view model) {
   write_file(result_path(dir_, result_names::d3plot), model);
   bytes_ += static_cast<std::int64_t>(model.size());
 }

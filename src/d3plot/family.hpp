@@ -19,6 +19,11 @@ class D3plotFamily {
 
   /// The model's file, and no states: those of an earlier run are removed. Throws OutputError.
   void begin(std::string_view model);
+  /// Whether the model's file is there, and the files of the states before `number`.
+  bool has_head() const;
+  bool has_states(int number) const;
+  /// The model's file alone. Throws OutputError.
+  void write_head(std::string_view model);
   /// A state, its time first, by its number from 0 on. Throws OutputError.
   void write(int number, std::string_view state);
   /// Removes states from `number` on. Throws OutputError.

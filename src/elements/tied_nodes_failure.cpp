@@ -75,9 +75,12 @@ class TiedPoints : public Constraint, public Impact, public EnergyTerm, public R
     mean_.resize(motions_.size(), std::vector<Vec>(points_.size(), Vec::Zero()));
     at_.assign(static_cast<std::size_t>(world.nodes.size()), -1);
     Field<Index>& alike = shared_fields::alike_axes.add(set);
+    Field<Index>& joined = shared_fields::joined_nodes.add(set);
     for (std::size_t p = 0; p < points_.size(); ++p)
-      for (const Index n : points_[p].nodes)
+      for (const Index n : points_[p].nodes) {
         at_[static_cast<std::size_t>(n)] = static_cast<Index>(p), alike[n] |= all_axes;
+        joined[n] = 1 + points_[p].nodes.front();
+      }
     world.counters["tied_nodes_parted"] += 0;
   }
   std::string name() const override { return "nodes tied until they fail"; }

@@ -25,20 +25,18 @@ CarriedMass::CarriedMass(std::shared_ptr<const Carriage> how, std::string name, 
     const auto carriers = how_->carriers(i);
     const auto shares = how_->shares(i);
     const Real mass = nodes.m[how_->node(i)];
-    counts_.push_back(mass > 0 && how_->weighs(world, i));
-    any_ = any_ || counts_[i];
+    weighs_.push_back(mass > 0 && how_->weighs(world, i));
+    any_ = any_ || weighs_[i];
     for (std::size_t k = 0; k < carriers.size(); ++k) {
       const auto [at, is_new] = place.try_emplace(carriers[k], node_.size());
-      if (is_new)
-        node_.push_back(carriers[k]), own_.push_back(nodes.m[carriers[k]]), slots_of_.emplace_back();
-      if (counts_[i]) {
-        own_[at->second] -= shares[k] * mass;
-        slots_of_[at->second].push_back(carrier_.size());
-      }
-      carrier_.push_back(at->second), carried_.push_back(i);
+      if (is_new) node_.push_back(carriers[k]), slots_of_.emplace_back();
+      if (weighs_[i]) slots_of_[at->second].push_back(carrier_.size());
+      carrier_.push_back(at->second), carried_.push_back(i), share_.push_back(shares[k]);
     }
     first_.push_back(carrier_.size());
   }
+  counts_ = weighs_;
+  own_.resize(node_.size());
   rate_.resize(carrier_.size());
   is_free_.resize(node_.size()), inverse_.resize(node_.size());
   mass_.resize(counts_.size()), turns_.resize(counts_.size());
@@ -46,6 +44,15 @@ CarriedMass::CarriedMass(std::shared_ptr<const Carriage> how, std::string name, 
     of_carriers->assign(node_.size(), Vec::Zero());
   for (Vecs* of_carried : {&was_, &had_spin_, &change_, &turned_, &a_, &spin_a_, &momenta_, &turning_})
     of_carried->assign(counts_.size(), Vec::Zero());
+  find_own_masses(world);
+}
+
+void CarriedMass::find_own_masses(const World& world) {
+  each_carrier([&](std::size_t c) {
+    own_[c] = world.nodes.m[node_[c]];
+    for (const std::size_t slot : slots_of_[c])
+      if (counts_[carried_[slot]]) own_[c] -= share_[slot] * world.nodes.m[how_->node(carried_[slot])];
+  });
 }
 
 void CarriedMass::find_free_axes(const World& world) {
@@ -76,6 +83,7 @@ Vec CarriedMass::pulled(std::size_t c, const Vecs& momenta, const Vecs& turning)
   Vec out = Vec::Zero();
   for (const std::size_t slot : slots_of_[c]) {
     const std::size_t i = carried_[slot];
+    if (!counts_[i]) continue;
     out += rate_[slot].B.transpose() * momenta[i];
     if (turns_[i] > 0) out += rate_[slot].W.transpose() * turning[i];
   }
@@ -97,10 +105,12 @@ void CarriedMass::look(World& world) {
     const auto i = static_cast<std::size_t>(k);
     const Index n = how_->node(i);
     was_[i] = world.nodes.v.vec(n), mass_[i] = world.nodes.m[n];
+    counts_[i] = weighs_[i] && how_->holds(world, i);
     turns_[i] = inertia_ && how_->spins(i) ? (*inertia_)[n] : 0;
     if (turns_[i] > 0) had_spin_[i] = spin_->vec(n);
     if (counts_[i]) how_->rates(world, i, std::span(rate_).subspan(first_[i], first_[i + 1] - first_[i]));
   });
+  find_own_masses(world);
   each_carrier([&](std::size_t c) { before_[c] = world.nodes.v.vec(node_[c]); });
   precondition();
 }
@@ -110,6 +120,7 @@ void CarriedMass::precondition() {
     Matrix M = own_[c] * Matrix::Identity();
     for (const std::size_t slot : slots_of_[c]) {
       const Carriage::Rate& rate = rate_[slot];
+      if (!counts_[carried_[slot]]) continue;
       M += mass_[carried_[slot]] * rate.B.transpose() * rate.B;
       if (turns_[carried_[slot]] > 0) M += turns_[carried_[slot]] * rate.W.transpose() * rate.W;
     }
@@ -255,8 +266,8 @@ void CarriedMass::strike(World& world, const Clock& clock) {
 }
 
 void CarriedMass::declare_move(const World& world, Accesses& a) const {
-  a.in_finish().revises(world.nodes.x).revises(world.nodes.v);
-  if (any_) a.reads(world.nodes.follow).reads(world.nodes.f).reads(world.nodes.m).updates(open_);
+  a.in_finish().revises(world.nodes.x).revises(world.nodes.v).reads(world.nodes.follow);
+  if (any_) a.reads(world.nodes.f).reads(world.nodes.m).updates(open_);
 }
 
 void CarriedMass::move(World& world, const Clock& clock) {
@@ -274,6 +285,7 @@ void CarriedMass::move(World& world, const Clock& clock) {
   for_each(static_cast<Index>(counts_.size()), [&](Index k) {
     const auto i = static_cast<std::size_t>(k);
     const Index n = how_->node(i);
+    if (!how_->holds(world, i)) return;
     const Carriage::Chord now = chord(world, i, x_, v_, clock.dt);
     nodes.x.set(n, now.x), nodes.v.set(n, now.v);
     if (how_->spins(i) && spin_) spin_->set(n, now.spin);

@@ -25,6 +25,8 @@ struct Carriage {
   virtual std::span<const Index> carriers(std::size_t i) const = 0;
   /// Of the mass of a carried node, which World::nodes has at the carriers. The sum is 1. [-]
   virtual std::span<const Real> shares(std::size_t i) const = 0;
+  /// Whether it is still carried.
+  virtual bool holds(const World& /*world*/, std::size_t /*i*/) const { return true; }
   /// Whether its inertia counts where it is; else the masses of World::nodes are all there is.
   virtual bool weighs(const World& /*world*/, std::size_t /*i*/) const { return true; }
   /// Whether W counts: no carrier has a rotation that the carried node follows.
@@ -65,6 +67,7 @@ class CarriedMass : public Impact, public EnergyTerm {
     Real kinetic = 0, half_step = 0, below = 0;
   };
   void find_free_axes(const World& world);
+  void find_own_masses(const World& world);
   void look(World& world);
   void precondition();
   void find_velocities(World& world, const Clock& clock);
@@ -84,9 +87,10 @@ class CarriedMass : public Impact, public EnergyTerm {
   std::string name_;
   Field<Real>& open_;                               ///< momentum of carriers that the step before left open
   Field<Real>*inertia_, *spin_;                     ///< of nodes; null: nothing turns
-  std::vector<char> counts_;                        ///< of each carried node
+  std::vector<char> weighs_, counts_;               ///< of each carried node; and now
   std::vector<std::size_t> first_;                  ///< slots of each carried node, one for each carrier
   std::vector<std::size_t> carrier_, carried_;      ///< of each slot
+  std::vector<Real> share_;                         ///< of each slot, of the mass
   std::vector<Carriage::Rate> rate_;                ///< of each slot
   std::vector<Index> node_;                         ///< of each carrier
   std::vector<std::vector<std::size_t>> slots_of_;  ///< of each carrier, those that count

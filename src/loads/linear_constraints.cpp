@@ -86,6 +86,10 @@ class LinearConstraints : public Constraint {
       : systems_(std::move(systems)),
         of_(movables(world)),
         part_of_(static_cast<std::size_t>(world.nodes.size())) {
+    Field<Index>& joined = shared_fields::joined_nodes.add(world.nodes.fields);
+    for (const LinearSystem& s : systems_)
+      for (const LinearConstraint& row : s.rows)
+        for (const LinearTerm& t : row) joined[t.node] = 1 + s.rows.front().front().node;
     for (std::size_t s = 0; s < systems_.size(); ++s)
       for (std::size_t row = 0; row < systems_[s].rows.size(); ++row)
         for (const LinearTerm& t : systems_[s].rows[row]) {

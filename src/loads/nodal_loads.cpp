@@ -67,7 +67,7 @@ class NodalLoadReader {
         return error(card, field,
                      fmt::format("node {} does not turn: only corners of shells that deform feel moments",
                                  model_.nodes[static_cast<std::size_t>(n)].id),
-                     "leave it out");
+                     "if it belongs to a rigid body, use *LOAD_RIGID_BODY with the part id of the body");
       else if (!is_loaded_[static_cast<std::size_t>(n)])
         return error(card, field,
                      fmt::format("node {} is neither a particle nor a node of elements or bodies, on which "
@@ -129,7 +129,8 @@ class NodalLoadReader {
       error(card, "DOF",
             size >= 5 && size <= 8 ? fmt::format("a moment (DOF {}) is not supported", card.dof)
                                    : fmt::format("expected 1, 2 or 3, got '{}'", card.dof),
-            "use DOF 1, 2, 3: a force along x, y, z; 4 follows M1, M2, M3");
+            size >= 5 && size <= 7 ? "on a rigid body use *LOAD_RIGID_BODY with the part id of the body"
+                                   : "use DOF 1, 2, 3: a force along x, y, z; 4 follows M1, M2, M3");
       return false;
     }
     Matrix axes = Matrix::Identity();

@@ -35,6 +35,9 @@ class NodeSets : public Constraint {
       : sets_(std::move(sets)), a_(sets_.size(), Vec::Zero()), on_(sets_.size(), 1) {
     set_of_.assign(static_cast<std::size_t>(world.nodes.size()), {-1, -1, -1});
     Field<Index>& alike = shared_fields::alike_axes.add(world.nodes.fields);
+    Field<Index>& joined = shared_fields::joined_nodes.add(world.nodes.fields);
+    for (std::size_t s = 0; s < sets_.size(); ++s)
+      for (const Index n : sets_[s].nodes) joined[n] = 1 + sets_[s].nodes.front();
     for (std::size_t s = 0; s < sets_.size(); ++s)
       for (const Index n : sets_[s].nodes)
         for (std::size_t k = 0; k < 3; ++k)

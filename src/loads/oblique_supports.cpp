@@ -13,6 +13,7 @@
 #include "model/cards.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
+#include "state/tied_mass.hpp"
 
 namespace courant {
 
@@ -129,6 +130,9 @@ class ObliqueReader {
           "rigid walls do not know of supports along oblique axes or for a time: nodes that are held so may "
           "get behind them",
           "leave such nodes out by NSIDEX");
+    Field<Index>& joined = shared_fields::joined_nodes.add(world_.nodes.fields);
+    for (const auto& [node, held] : directions_) joined[node] = -1;
+    for (const HeldNode& one : timed_) joined[one.node] = -1;
     std::vector<HeldNode> oblique;
     for (const auto& [node, held] : directions_) {
       HeldNode one;

@@ -308,6 +308,20 @@ def test_a_restart_goes_on_in_the_family(tmp_path: Path) -> None:
         assert (whole / name).read_bytes() == (parts / name).read_bytes(), name
 
 
+@pytest.mark.parametrize(("gone", "says"), [("d3plot", "the file d3plot is missing"), ("d3plot01", "files of d3plot are missing")])
+def test_a_restart_without_a_file_of_the_family_leaves_a_readable_one(tmp_path: Path, gone: str, says: str) -> None:
+    deck = tmp_path / "restart.k"
+    deck.write_text(small_files(tmp_path).read_text().replace("*END", "*DATABASE_BINARY_D3DUMP\n300\n*END"))
+    to = run(deck, tmp_path / "run")
+    before = D3plotFile(to / "d3plot").times
+    (to / gone).unlink()
+    run(deck, to, "--restart", str(sorted((to / "restart").glob("d3dump*"))[0]))
+    after = D3plotFile(to / "d3plot").times
+    assert says in (to / "summary.yaml").read_text()
+    np.testing.assert_array_equal(after, before if gone == "d3plot" else before[len(before) - len(after):])
+    assert 0 < len(after) <= len(before)
+
+
 def test_a_killed_run_leaves_a_readable_family(tmp_path: Path) -> None:
     deck = tmp_path / "long.k"
     deck.write_text(small_files(tmp_path).read_text().replace("*CONTROL_TERMINATION\n2e-3", "*CONTROL_TERMINATION\n20.").replace("*DATABASE_BINARY_D3PLOT\n1e-4", "*DATABASE_BINARY_D3PLOT\n1e-5"))

@@ -114,6 +114,9 @@ RelaxationEnd relax(Simulation& s, const std::function<bool()>& stop,
     out.converged = at_rest && (out.ahead < near || out.creeps);
     recent = 0;
   }
+  if (!out.stopped && peak == 0) out.converged = true;  // nothing moved, however short it was
+  if (!out.converged && recent > 0 && out.ratio == 0)
+    out.ratio = recent / peak;  // it ended before the first look
   std::string who;
   s.evaluate(who);  // stresses of the last step
   s.guard().look(s.world(), s.clock());

@@ -111,7 +111,7 @@ class Run {
     } else {
       const Archive::Group inside(archive, "files");
       fields_.keep(archive);
-      fields_.cut(state_);
+      if (std::string lost = fields_.cut(state_); !lost.empty()) before.warnings.push_back(std::move(lost));
     }
     if (before.file.filename() == before_error && s_.changes().empty())
       before.warnings.push_back("after this state the run stopped in error, and the deck is the same");

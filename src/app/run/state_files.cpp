@@ -36,7 +36,10 @@ void StateFiles::write(State state) {
   ++states_;
   if (state.vtk) vtk_.write(std::move(*state.vtk));
   if (!d3plot_) return;
-  if (first_ < 0) d3plot_->begin(state.d3plot_head), first_ = state.number;
+  if (first_ < 0)
+    d3plot_->begin(state.d3plot_head), first_ = state.number;
+  else if (!state.d3plot_head.empty() && !d3plot_->has_head())  // the first one behind a restart
+    d3plot_->write_head(state.d3plot_head);
   d3plot_->write(state.number - first_, state.d3plot);
 }
 
@@ -53,9 +56,15 @@ void StateFiles::keep(Archive& archive) {
                       fmt::format("its states have {} bytes, those of this deck {}", state_bytes, now));
 }
 
-void StateFiles::cut(int number) {
+std::string StateFiles::cut(int number) {
   if (with_vtk()) vtk_.cut(number);
-  if (d3plot_ && first_ >= 0) d3plot_->cut(number - first_);
+  if (!d3plot_ || first_ < 0) return "";
+  if (!d3plot_->has_states(number - first_)) {
+    first_ = -1;
+    return "files of d3plot are missing: its states begin again with the next one";
+  }
+  d3plot_->cut(number - first_);
+  return d3plot_->has_head() ? "" : "the file d3plot is missing: it is written again";
 }
 
 }  // namespace courant

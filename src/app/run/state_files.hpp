@@ -28,7 +28,8 @@ class StateFiles {
   void write(State state);
   void write_failed(const World& world, Real t) { vtk_.write_failed(world, t); }
   void keep(Archive& archive);
-  void cut(int number);
+  /// Removes states from `number` on. Returns what is missing of those before; empty: nothing.
+  std::string cut(int number);
   void finish() { vtk_.finish(); }
   int states() const { return states_; }
   std::int64_t bytes() const { return vtk_.bytes() + (d3plot_ ? d3plot_->bytes() : 0); }

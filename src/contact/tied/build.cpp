@@ -402,7 +402,7 @@ class TiedBuilder {
     exact_->ties.insert(exact_->ties.end(), ties.begin(), ties.end());
     exact_->turns.resize(exact_->ties.size(), 0);
     for (const Tie& tie : ties) exact_->on_body.push_back(is_on_body(tie, options_.bodies));
-    exact_->contacts.push_back({id, c.title, first, exact_->ties.size()});
+    exact_->contacts.push_back({id, c.title, first, exact_->ties.size(), death_of(c)});
     if (turns) take_turns(c, first);
     if (!first_card_) first_card_ = &c;
   }

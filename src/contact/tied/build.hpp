@@ -19,10 +19,9 @@ struct TiedOptions {
 
 /// All *CONTACT_TIED of the deck, and what holds those with TIEBREAK in their names until it breaks, added to
 /// the passes of `world`. Elements and bodies must be there, and rotations started; nodes that are tied
-/// exactly follow from then on, and the corners of their faces have their masses. Refuses by name: plane
-/// scenes, nodes of rigid bodies, elements that may fail, masses that grow in the run, and chains of ties
-/// where nodes are tied exactly. Warns of nodes that find no face. Returns what constraints leave of the step
-/// of elements. [-]
+/// exactly follow from then on, and the corners of their faces have their masses. Refuses plane scenes. Warns
+/// of nodes that find no face, and of ties that cannot be exact, which become springs (not_exact.hpp).
+/// Returns what constraints leave of the step of elements. [-]
 Real add_tied_contacts(const Deck& deck, const Model& model, const TiedOptions& options, World& world,
                        Diagnostics& diagnostics);
 

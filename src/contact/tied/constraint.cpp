@@ -22,6 +22,7 @@ class TiedForces : public Constraint {
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
   void declare(const World& world, Accesses& a) const override {
     a.in_start().reads_before(world.nodes.f, Reach::others).reads(world.nodes.x, Reach::others);
+    a.reads(world.nodes.follow, Reach::others);
     if (turning_) a.reads_before(*turning_.moment, Reach::others);
     a.in_block().updates(world.nodes.f);
     if (turning_) a.updates(*turning_.moment);
@@ -30,6 +31,8 @@ class TiedForces : public Constraint {
     for_each(static_cast<Index>(forces_.size()), [&](Index t) {
       const Tie& tie = tied_->ties[static_cast<std::size_t>(t)];
       Forces& out = forces_[static_cast<std::size_t>(t)];
+      out = {};
+      if (!is_tied(tie, world)) return;
       out.on = on_corners(tie.at, world.nodes.x, world.nodes.f.vec(tie.node));
       if (turning_ && tied_->turns[static_cast<std::size_t>(t)]) out.moment = turning_.moment->vec(tie.node);
     });
@@ -51,7 +54,7 @@ class TiedForces : public Constraint {
 
  private:
   struct Forces {
-    std::array<Vec, 4> on{};
+    std::array<Vec, 4> on{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
     Vec moment = Vec::Zero();
   };
   std::shared_ptr<const TiedConstraint> tied_;
@@ -74,6 +77,7 @@ class OnFaces : public Carriage {
   std::span<const Real> shares(std::size_t i) const override {
     return std::span(shares_[i]).first(static_cast<std::size_t>(at(i).corners));
   }
+  bool holds(const World& world, std::size_t i) const override { return is_tied(tied_->ties[i], world); }
   bool weighs(const World& world, std::size_t i) const override {
     return weighs_where_it_is(tied_->ties[i], world);
   }
@@ -97,19 +101,21 @@ class OnFaces : public Carriage {
 class TiedReport : public Pass, public InterfaceReporter {
  public:
   TiedReport(std::shared_ptr<const TiedConstraint> tied, std::shared_ptr<const CarriedMass> inertia,
-             std::size_t contact, const Nodes& nodes)
-      : tied_(std::move(tied)), inertia_(std::move(inertia)), contact_(contact), nodes_(nodes) {}
+             std::size_t contact, const World& world)
+      : tied_(std::move(tied)), inertia_(std::move(inertia)), contact_(contact), world_(world) {}
   std::string name() const override { return fmt::format("tied contact {}", of().id); }
   InterfaceForce report() const override {
     InterfaceForce out{.id = of().id, .title = of().title};
+    const Nodes& nodes = world_.nodes;
     for (std::size_t t = of().first; t < of().last; ++t) {
       const Tie& tie = tied_->ties[t];
+      if (!is_tied(tie, world_)) continue;
       Vec a = inertia_->counts(t) ? inertia_->acceleration(t) : Vec(Vec::Zero());
       for (std::size_t e = 0; !inertia_->counts(t) && e < static_cast<std::size_t>(tie.at.corners); ++e)
         if (const Index n = tie.at.node[e];
-            nodes_.follow[n] == 0)  // of bodies it is not known yet, and left out
-          a += tie.at.N[e] / nodes_.m[n] * nodes_.f.vec(n);
-      out.on_surfa += nodes_.m[tie.node] * a - nodes_.f.vec(tie.node);
+            nodes.follow[n] == 0)  // of bodies it is not known yet, and left out
+          a += tie.at.N[e] / nodes.m[n] * nodes.f.vec(n);
+      out.on_surfa += nodes.m[tie.node] * a - nodes.f.vec(tie.node);
     }
     return out;
   }
@@ -119,7 +125,7 @@ class TiedReport : public Pass, public InterfaceReporter {
   std::shared_ptr<const TiedConstraint> tied_;
   std::shared_ptr<const CarriedMass> inertia_;
   std::size_t contact_;
-  const Nodes& nodes_;
+  const World& world_;
 };
 
 class TiedMotion : public Motion {
@@ -139,7 +145,7 @@ class TiedMotion : public Motion {
     if (!turning_) return;
     for_each(static_cast<Index>(tied_->ties.size()), [&](Index t) {
       const Tie& tie = tied_->ties[static_cast<std::size_t>(t)];
-      if (!tied_->turns[static_cast<std::size_t>(t)]) return;
+      if (!tied_->turns[static_cast<std::size_t>(t)] || !is_tied(tie, world)) return;
       turning_.angle->set(tie.node, mean_of(tie.at, *turning_.angle));
       turning_.speed->set(tie.node, mean_of(tie.at, *turning_.speed));
     });
@@ -154,12 +160,13 @@ class TiedMotion : public Motion {
 }  // namespace
 
 void add_constraint(std::shared_ptr<const TiedConstraint> tied, World& world) {
+  add_release(tied, world);
   world.passes.add(std::make_shared<TiedForces>(tied, world));
   const auto inertia = world.passes.add(
       std::make_shared<CarriedMass>(std::make_shared<OnFaces>(tied), "inertia of tied nodes", world));
   world.passes.add(std::make_shared<TiedMotion>(tied, inertia, world));
   for (std::size_t k = 0; k < tied->contacts.size(); ++k)
-    world.passes.add(std::make_shared<TiedReport>(tied, inertia, k, world.nodes));
+    world.passes.add(std::make_shared<TiedReport>(tied, inertia, k, world));
 }
 
 }  // namespace courant

@@ -2,6 +2,7 @@
 // Nodes that go with faces exactly.
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,13 +23,21 @@ struct TiedConstraint {
   struct Contact {
     Id id = 0;
     std::string title{};
-    std::size_t first = 0, last = 0;  ///< its ties
+    std::size_t first = 0, last = 0;                     ///< its ties
+    Real death = std::numeric_limits<Real>::infinity();  ///< from then on none holds [T]
   };
   std::vector<Tie> ties{};
   std::vector<char> turns{};    ///< of each tie: rotations are those of the face, too
   std::vector<char> on_body{};  ///< of each tie: all corners belong to one rigid body
   std::vector<Contact> contacts{};
 };
+
+/// Whether a face still takes the node with it.
+inline bool is_tied(const Tie& tie, const World& world) {
+  return world.nodes.follow[tie.node] == 2;
+}
+/// Whether the node can be freed in the run: no corner has given its share of the mass to a rigid body.
+bool can_be_released(const Tie& tie, const World& world);
 
 /// Whether the inertia of a node counts where it is.
 bool weighs_where_it_is(const Tie& tie, const World& world);
@@ -51,5 +60,7 @@ Real growth_of_frequencies(const TiedConstraint& tied, const HeldAxes& held, con
 TiedStart start_constraint(const TiedConstraint& tied, const HeldAxes& held, World& world);
 /// Adds the passes. Call start_constraint first.
 void add_constraint(std::shared_ptr<const TiedConstraint> tied, World& world);
+/// Adds the pass that frees nodes whose face is deleted or whose contact is dead, where that can happen.
+void add_release(std::shared_ptr<const TiedConstraint> tied, World& world);
 
 }  // namespace courant

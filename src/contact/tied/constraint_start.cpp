@@ -201,6 +201,11 @@ class GapInertia {
 
 }  // namespace
 
+bool can_be_released(const Tie& tie, const World& world) {
+  return std::all_of(tie.at.node.begin(), tie.at.node.end(),
+                     [&](Index n) { return world.nodes.follow[n] != 1; });
+}
+
 bool weighs_where_it_is(const Tie& tie, const World& world) {
   constexpr Real none = 1e-9;  // of the width of the face
   Vec low = world.nodes.x.vec(tie.at.node[0]), high = low;

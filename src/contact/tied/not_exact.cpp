@@ -28,8 +28,6 @@ std::optional<WhyNotExact> why_not_exact(const ContactCard& c, const std::vector
   std::set<Index> eroding;
   for (const auto& group : world.groups)
     if (shared_fields::eroded.find(group->fields)) eroding.insert(group->part);
-  if (c.dt < model.endtim)
-    return WhyNotExact{"DT", "nodes that are tied exactly stay so to the end", springs};
   if (options.mass_grows && !of_beams(ties, model, world))
     return WhyNotExact{
         "", "nodes that are tied exactly get no mass from mass scaling (DT2MS) once the run goes on",
@@ -40,12 +38,18 @@ std::optional<WhyNotExact> why_not_exact(const ContactCard& c, const std::vector
     if (options.bodies.body(tie.node) >= 0)
       return WhyNotExact{
           "SURFA", fmt::format("node {} belongs to a rigid body, which cannot be tied exactly", id), springs};
-    if (eroding.contains(part))
-      return WhyNotExact{
-          "SURFB",
-          fmt::format("the elements of part {} may fail, and nothing can be tied exactly to such",
-                      model.parts[static_cast<std::size_t>(part)].id),
-          springs};
+    if (!can_be_released(tie, world)) {
+      if (c.dt < model.endtim)
+        return WhyNotExact{
+            "DT", fmt::format("node {} is tied to a rigid body, from which it could not be freed", id),
+            springs};
+      if (eroding.contains(part))
+        return WhyNotExact{
+            "SURFB",
+            fmt::format("the elements of part {} may fail, and a rigid body has some of their nodes",
+                        model.parts[static_cast<std::size_t>(part)].id),
+            springs};
+    }
     if (corners.contains(tie.node))
       return WhyNotExact{"SURFA", fmt::format("node {} is a corner of a face to which others are tied", id),
                          exchange};

@@ -245,13 +245,14 @@ class SpringLimit : public TimeLimit {
         fmt::format("torsional spring {}: node {} does not turn", part.group->id[e], world.nodes.id[n]),
         "only nodes of rigid bodies, of shells that deform and of beams do");
   }
-  /// Of an end, along the spring. [1/M], [1/ML2]
+  /// Of an end, along the spring. Joints, whose answer is known within a step alone, can only lessen it.
+  /// [1/M], [1/ML2]
   Real give(const End& end, const World& world) const {
     const SpringForces& springs = *springs_[end.part];
     const Vec along = springs.direction(end.element);
     if (springs.part().turns)
       return end.body >= 0 ? bodies_.turn(end.body, along) : 1 / (*inertia_)[end.node];
-    return end.body >= 0 ? bodies_.give(end.body, world.nodes.x.vec(end.node), along)
+    return end.body >= 0 ? bodies_.give_alone(end.body, world.nodes.x.vec(end.node), along)
            : world.nodes.m[end.node] > mass_of_held ? 1 / world.nodes.m[end.node]
                                                     : 0;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <iterator>
+#include <map>
 
 #include "keyword/source.hpp"
 #include "model/sets/sets.hpp"
@@ -129,10 +130,10 @@ SetResolver::Found SetResolver::general(SetKind kind, const SetCard& card) {
 
 SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::string_view word,
                                     const std::vector<Id>& ids) {
-  if (word == "ALL") return everything(kind);
+  if (word == "ALL") return everything(kind, card);
   if (word == "PART") return kind == SetKind::part ? elements(kind, card, ids) : of_parts(kind, card, ids);
   if (word == "NODE" || word == "ELEM") return elements(kind, card, ids);
-  if (word == "BOX" || word == "BOX_SHELL") return in_boxes(kind, card, ids);
+  if (word == "BOX" || word == "BOX_SHELL") return in_boxes(kind, card, ids, word == "BOX");
   if (word == "SET") return of_sets(kind, kind, card, ids);
   if (word == "SET_SHELL") return of_sets(kind, SetKind::shell, card, ids);
   if (word == "SET_SOLID") return of_sets(kind, SetKind::solid, card, ids);
@@ -143,12 +144,61 @@ SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::stri
   return Members{found};
 }
 
-SetResolver::Members SetResolver::everything(SetKind kind) {
-  // segments of all shells; there are no solids that could show a face
+/// Faces that belong to one solid of the model.
+const std::vector<SetResolver::ExposedFace>& SetResolver::exposed_faces() {
+  if (exposed_) return *exposed_;
+  constexpr std::size_t outward[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                                         {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  std::map<std::array<Index, 4>, std::pair<ExposedFace, int>> faces;
+  for (std::size_t s = 0; s < model_.solids.size(); ++s) {
+    const std::array<Index, 8> corners = model_.solids[s].corners();
+    for (const auto& face : outward) {
+      std::array<Index, 4> nodes{};
+      std::size_t count = 0;
+      for (const std::size_t c : face)
+        if (std::find(nodes.begin(), nodes.begin() + count, corners[c]) == nodes.begin() + count)
+          nodes[count++] = corners[c];
+      if (count < 3) continue;
+      if (count == 3) nodes[3] = nodes[2];
+      std::array<Index, 4> key = nodes;
+      std::sort(key.begin(), key.end());
+      const auto end = std::unique(key.begin(), key.end());
+      std::fill(end, key.end(), *(end - 1));
+      ++faces.try_emplace(key, ExposedFace{static_cast<Index>(s), nodes}, 0).first->second.second;
+    }
+  }
+  exposed_.emplace();
+  for (const auto& [key, face] : faces)
+    if (face.second == 1) exposed_->push_back(face.first);
+  return *exposed_;
+}
+
+template <class Wanted>
+SetResolver::Found SetResolver::faces_of_solids(const SetCard& card, const Wanted& wanted) {
+  Members out;
+  if (model_.solids.empty()) return out;
+  for (const ExposedFace& face : exposed_faces()) {
+    const ModelSolid& solid = model_.solids[static_cast<std::size_t>(face.solid)];
+    if (!wanted(solid, face.node)) continue;
+    if (solid.has_nodes_on_edges()) {
+      error(card, "E1", 0, "segments on the faces of solids with nodes on their edges are not supported");
+      return std::nullopt;
+    }
+    out.push_back(segment(face.node));
+  }
+  return out;
+}
+
+SetResolver::Found SetResolver::everything(SetKind kind, const SetCard& card) {
   const SetKind from = kind == SetKind::segment ? SetKind::shell : kind;
   Members out(count(from));
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<Index>(i);
-  return converted(from, kind, out);
+  Members all = converted(from, kind, out);
+  if (kind != SetKind::segment) return all;
+  const Found faces = faces_of_solids(card, [](const ModelSolid&, const auto&) { return true; });
+  if (!faces) return std::nullopt;
+  all.insert(all.end(), faces->begin(), faces->end());
+  return all;
 }
 
 SetResolver::Found SetResolver::elements(SetKind kind, const SetCard& card, const std::vector<Id>& ids) {
@@ -178,9 +228,12 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   if (kind == SetKind::shell) return shells;
   if (kind == SetKind::solid) return solids;
   if (kind == SetKind::segment) {
-    if (solids.empty()) return converted(SetKind::shell, kind, shells);
-    error(card, "E1", 0, "segments on the faces of solid elements are not supported");
-    return std::nullopt;
+    out = converted(SetKind::shell, kind, shells);
+    const Found faces =
+        faces_of_solids(card, [&](const ModelSolid& solid, const auto&) { return is_wanted(solid.part); });
+    if (!faces) return std::nullopt;
+    out.insert(out.end(), faces->begin(), faces->end());
+    return out;
   }
   out = converted(SetKind::shell, kind, shells);
   const Members of_solids = converted(SetKind::solid, kind, solids);
@@ -192,8 +245,9 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   return out;
 }
 
-SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, const std::vector<Id>& ids) {
-  Members out;
+SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, const std::vector<Id>& ids,
+                                         bool with_solids) {
+  Members out, of_solids;
   for (const Id id : ids) {
     const auto it = model_.boxes.find(id);
     if (it == model_.boxes.end()) {
@@ -212,8 +266,17 @@ SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, cons
       for (std::size_t i = 0; i < model_.solids.size(); ++i) add(i, model_.solids[i].node);
     else
       for (std::size_t i = 0; i < model_.shells.size(); ++i) add(i, model_.shells[i].node);
+    if (kind != SetKind::segment || !with_solids) continue;
+    const Found faces = faces_of_solids(card, [&](const ModelSolid&, const std::array<Index, 4>& nodes) {
+      return std::all_of(nodes.begin(), nodes.end(), inside);
+    });
+    if (!faces) return std::nullopt;
+    of_solids.insert(of_solids.end(), faces->begin(), faces->end());
   }
-  return kind == SetKind::segment ? converted(SetKind::shell, kind, out) : out;
+  if (kind != SetKind::segment) return out;
+  Members all = converted(SetKind::shell, kind, out);
+  all.insert(all.end(), of_solids.begin(), of_solids.end());
+  return all;
 }
 
 SetResolver::Found SetResolver::of_sets(SetKind kind, SetKind from, const SetCard& card,

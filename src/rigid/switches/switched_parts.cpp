@@ -44,7 +44,11 @@ struct PartSwitch {
   Index acted = 0;  ///< how often
 };
 
-class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public Restartable {
+class SwitchedParts : public SwitchedNodes,
+                      public Impact,
+                      public EnergyTerm,
+                      public TimeLimit,
+                      public Restartable {
  public:
   SwitchedParts(std::vector<SwitchedBody> bodies, std::vector<PartSwitch> switches,
                 std::vector<std::size_t> at_start, const World& world)
@@ -56,6 +60,11 @@ class SwitchedParts : public Impact, public EnergyTerm, public TimeLimit, public
         inertia_(shared_fields::rotary_inertia.find(world.nodes.fields)),
         no_turn_(shared_fields::no_rotation.find(world.nodes.fields)) {}
   std::string name() const override { return "parts that are rigid for a while"; }
+  std::vector<std::vector<Index>> nodes_of_bodies() const override {
+    std::vector<std::vector<Index>> out;
+    for (const SwitchedBody& body : bodies_) out.push_back(body.b.nodes);
+    return out;
+  }
 
   void strike(World& world, const Clock& clock) override {
     if (clock.cycle != looked_at_) look(world, clock);
@@ -462,18 +471,5 @@ const RegisterAddition switched_parts{
     }};
 
 }  // namespace
-
-void check_switches(const Deck& deck, const World& world, Diagnostics& diagnostics) {
-  for (const AutomaticSwitch& card : deck.all<AutomaticSwitch>()) {
-    if (card.entno == 0 || (!card.of_wall() && !card.of_contact())) continue;
-    if (card.of_wall() ? force_on_wall(world, card.entno).has_value()
-                       : force_of_contact(world, card.entno).has_value())
-      continue;
-    deck.error(diagnostics, card, "ENTNO",
-               fmt::format("{} {} does not exist, or pushes no nodes of elements",
-                           card.of_wall() ? "rigid wall" : "contact", card.entno),
-               "give the number of one that is there");
-  }
-}
 
 }  // namespace courant

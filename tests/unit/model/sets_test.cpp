@@ -1,7 +1,9 @@
 // Members of every kind of set, told in every form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -242,10 +244,45 @@ INSTANTIATE_TEST_SUITE_P(
                  "'3' is not supported\n  hint: supported values: 0, 1, 2, 4, 5"},
         SetFault{"Twice", "*SET_SEGMENT\n1\n1,2\n*SET_SEGMENT_ADD\n1\n1\n",
                  "segment set 1 is defined twice, first as *SET_SEGMENT at deck.k"},
-        SetFault{"FacesOfSolids",
-                 "*ELEMENT_SOLID\n1,1,1,2,5,4,11,11,11,11\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
-                 "segments on the faces of solid elements are not supported"}),
+        SetFault{"FacesOfQuadraticSolids",
+                 "*ELEMENT_SOLID\n1,1\n1,2,4,11,3,5,6,7,8,9\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
+                 "segments on the faces of solids with nodes on their edges are not supported"}),
     name_of_set_case);
+
+/// Corners of segments by node id, from the lowest.
+std::set<Ids> segments_of(const SmallModel& m, Id set) {
+  std::set<Ids> out;
+  for (const Index s : m.model.segment_sets.at(set)) {
+    Ids ids;
+    for (const Index n : m.model.segments[static_cast<std::size_t>(s)].node)
+      ids.push_back(m.model.nodes[static_cast<std::size_t>(n)].id);
+    if (ids[2] == ids[3]) ids.pop_back();
+    std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
+    out.insert(ids);
+  }
+  return out;
+}
+
+// Two tetrahedra that share a face: six exposed ones, outward; those with all nodes in a box.
+TEST(Sets, OfExposedFacesOfSolids) {
+  const SmallModel m = small_model(
+      "*NODE\n51,0,0,0\n52,1,0,0\n53,0,1,0\n54,0,0,1\n55,0,0,-1\n"
+      "*ELEMENT_SOLID\n11,1,51,52,53,54,54,54,54,54\n12,1,51,53,52,55,55,55,55,55\n"
+      "*DEFINE_BOX\n7,-0.1,1.1,-0.1,1.1,-0.1,1.1\n"
+      "*SET_SEGMENT_GENERAL\n1\nPART,1\nDBOX,7\n*SET_SEGMENT_GENERAL\n2\nBOX,7\n*SET_SEGMENT_GENERAL\n3\n"
+      "BOX_SHELL,7\n*SET_SEGMENT_GENERAL\n4\nALL\n");
+  const std::set<Ids> above{{51, 52, 54}, {52, 53, 54}, {51, 54, 53}},
+      below{{51, 53, 55}, {52, 55, 53}, {51, 55, 52}};
+  const std::set<Ids> in_box = segments_of(m, 2), part = segments_of(m, 1);
+  EXPECT_TRUE(std::includes(in_box.begin(), in_box.end(), above.begin(), above.end()));
+  EXPECT_TRUE(std::includes(part.begin(), part.end(), below.begin(), below.end()));
+  for (const Ids& face : above) EXPECT_FALSE(part.contains(face));
+  for (const Ids& face : below) EXPECT_FALSE(in_box.contains(face));
+  const std::set<Ids> all = segments_of(m, 4);
+  for (const auto& faces : {above, below})
+    for (const Ids& face : faces) EXPECT_TRUE(all.contains(face));
+  EXPECT_FALSE(all.contains({51, 52, 53}) || all.contains({51, 53, 52}));
+}
 
 TEST(Sets, OfSolids) {
   const SmallModel m = small_model(

@@ -75,6 +75,30 @@ TEST(JointLimits, LightLinksCarryAHeavyBob) {
   EXPECT_LT(b.x[2], -0.9) << "it fell";
 }
 
+// A door on a hinge swings on a spring between its edge and a fixed body: w^2 = k r^2/J about the hinge.
+TEST(JointLimits, SpringsActOnBodiesWithJoints) {
+  const Real m = 2, d = 0.5, J = 0.2, r = 1, k = 300, start = 0.01;
+  JointDeck deck;
+  const int ground = deck.ground();
+  const int door = deck.body(
+      {.x = {d, 0, 0}, .m = m, .J = J * Matrix::Identity(), .v = {0, d * start, 0}, .omega = {0, 0, start}});
+  deck.joint("REVOLUTE", ground, door, {Vec(0, 0, 0), Vec(0, 0, 1)});
+  const int ends[] = {++deck.node, ++deck.node};
+  deck.nodes += fmt::format("{},{},0,0\n{},{},1,0\n", ends[0], r, ends[1], r);
+  deck.extra += fmt::format("{},{}\n{},{}\n", door, ends[0], ground, ends[1]);
+  deck.more += fmt::format(
+      "*PART\nspring\n9,9,9\n*SECTION_DISCRETE\n9,0\n\n*MAT_SPRING_ELASTIC\n9,{}\n*ELEMENT_DISCRETE\n9,9,{},{"
+      "}\n",
+      k, ends[0], ends[1]);
+  const Real period = 2 * std::acos(-1.0) * std::sqrt((J + m * d * d) / (k * r * r));
+  auto s = simulation_of(deck.text(period));
+  const RigidBody& b = s->bodies()->bodies()[1];
+  while (s->clock().t < 0.25 * period) s->step(do_nothing);
+  EXPECT_NEAR(b.omega[2], 0, 0.02 * start);
+  while (s->clock().t < 0.5 * period) s->step(do_nothing);
+  EXPECT_NEAR(b.omega[2], -start, 0.002 * start);
+}
+
 // A door whose hinges are askew by what the digits of a deck leave goes on turning.
 TEST(JointLimits, TwoHingesALittleAskewDoNotBrakeADoor) {
   for (const Real slight : {1e-7, 1e-6}) {

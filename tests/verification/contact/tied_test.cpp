@@ -299,27 +299,108 @@ TEST(TiedContact, SpringsMakeABarALittleSofter) {
   EXPECT_LT(exact, 0.95);
 }
 
-// Faces that may fail are held by springs of E A/h, with the compliance of an element; the step is 0.54 of
-// that of an exact tie, as nodes on the faces have half a mass.
-TEST(TiedContact, WhatMayFailIsHeldByStiffSprings) {
-  const std::string may_fail = "*MAT_ADD_EROSION\n         1       0.0\n       0.0     1.0E6\n";
-  const Real h = 0.125, k = 3 * (bar_E / 3) / h;
-  Real z = 1;
-  for (int it = 0; it < 1000; ++it) z += 0.1 * (std::atan(2 * k / (bar_E * z)) - z);
-  const Real exact = z / std::acos(0.0);
-  const Real f = axial_frequency(8, 8, tie("SURFACE_TO_SURFACE") + may_fail, z);
-  RecordProperty("frequency", fmt::format("{:.6f} of {:.6f}", f, exact));
-  EXPECT_NEAR(f, exact, 0.005 * exact);
-  EXPECT_GT(exact, 0.93);
-  std::array<Real, 2> steps;
-  for (const bool fails : {false, true}) {
-    SolidDeck deck = bar(8, 8, 0);
-    deck.cards += tie("SURFACE_TO_SURFACE") + (fails ? may_fail : "");
+// Faces that may fail, and contacts that may die, are tied exactly until then: the same step and the same
+// motion.
+TEST(TiedContact, WhatMayFailIsTiedExactly) {
+  const auto positions_after = [](const std::string& cards) {
+    SolidDeck deck = bar(3, 4, 0.3, 0.02);
+    deck.cards +=
+        cards + velocities(deck.nodes, [](const Vec& x) { return Vec(std::sin(3 * x[1]), x[0], 1); });
     auto s = simulation_of(deck.text(1));
+    for (int k = 0; k < 50; ++k) s->step(do_nothing);
+    std::vector<Real> out{s->clock().t};
+    for (Index n = 0; n < s->world().nodes.size(); ++n)
+      for (int a = 0; a < 3; ++a) out.push_back(s->world().nodes.x.data(a)[n]);
+    return out;
+  };
+  const std::vector<Real> exact = positions_after(tie("SURFACE_TO_SURFACE"));
+  EXPECT_EQ(positions_after(tie("SURFACE_TO_SURFACE") +
+                            "*MAT_ADD_EROSION\n         1       0.0\n       0.0     1.0E6\n"),
+            exact);
+  EXPECT_EQ(positions_after("*CONTACT_TIED_SURFACE_TO_SURFACE_ID\n7,glue\n2,1,3,3\n,,,,,,,0.5\n\n"), exact);
+}
+
+namespace {
+
+/// Two struck halves that are tied up to t = 0.005, until 0.01.
+void expect_release(const SolidDeck& deck, const std::string& what) {
+  auto s = simulation_of(deck.text(10));
+  test::start_ledger(*s);
+  s->step(do_nothing);
+  const auto tied = [&] {
+    Index count = 0;
+    for (Index n = 0; n < s->world().nodes.size(); ++n) count += s->world().nodes.follow[n] == 2;
+    return count;
+  };
+  const Index at_start = tied();
+  EXPECT_GT(at_start, 0) << what;
+  const auto [p, L] = tied_momenta(*s);
+  Real worst = 0;
+  while (s->clock().t < 0.01) {
     s->step(do_nothing);
-    steps[fails] = s->clock().dt;
+    const auto [p_now, L_now] = tied_momenta(*s);
+    EXPECT_LT((p_now - p).norm(), 1e-12 * p.norm()) << what;
+    worst = std::max(worst, (L_now - L).norm() / L.norm());
+    if (s->clock().t < 0.005) EXPECT_EQ(tied(), at_start) << what;
   }
-  EXPECT_GT(steps[1], 0.5 * steps[0]);
+  EXPECT_LT(worst, 1e-12) << what;
+  EXPECT_EQ(tied(), 0) << what;
+  EXPECT_EQ(s->world().counters["broken_ties"], at_start) << what;
+  for (const auto* reporter : s->world().passes.all<InterfaceReporter>())
+    EXPECT_EQ(reporter->report().on_surfa.norm(), 0) << what;
+  const Field<Real>& carried = *shared_fields::tied_mass.find(s->world().nodes.fields);
+  Real left = 0, mass = 0;
+  for (Index n = 0; n < s->world().nodes.size(); ++n)
+    left = std::max(left, std::abs(carried[n])), mass = std::max(mass, s->world().nodes.m[n]);
+  EXPECT_LT(left, 1e-13 * mass) << what;
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3) << what;
+}
+
+}  // namespace
+
+TEST(TiedContact, ReleasesNodesAtItsDeathAndWithTheirFaces) {
+  for (const bool by_death : {true, false}) {
+    SolidDeck deck = bar(2, 3, 0.3, 0.02);
+    deck.cards += by_death ? "*CONTACT_TIED_SURFACE_TO_SURFACE_ID\n7,glue\n2,1,3,3\n,,,,,,,0.005\n\n"
+                           : tie("SURFACE_TO_SURFACE");
+    deck.cards += "*CONTROL_TIMESTEP\n       0.0       0.1\n";
+    if (!by_death)
+      for (const int e : {2, 4, 6, 8})
+        deck.cards += fmt::format("*DEFINE_ELEMENT_DEATH_SOLID\n{},0.005\n", e);
+    deck.cards += velocities(deck.nodes, [&](const Vec& x) {
+      const Real a = std::exp(-3 * (x - Vec(2, 1, 1)).squaredNorm());
+      return Vec(-20 * a, 10 * a, 30 * a);
+    });
+    expect_release(deck, by_death ? "death" : "deleted faces");
+  }
+}
+
+// Rotations of a shell whose edge is tied to a plate.
+TEST(TiedContact, ReleasesRotations) {
+  ShellDeck deck;
+  deck.plate(1, 1, 2, 2, 1);
+  deck.plate(0.4, 0.4, 1, 1, 2, [](const Vec& x) { return Vec(x + Vec(0.3, 0.3, 0.01)); });
+  deck.part(1, 0.1, "*MAT_ELASTIC\n1,1000.0,1.0E8,0.3\n");
+  deck.cards +=
+      "*PART\nupper\n2,1,1\n*CONTACT_TIED_SHELL_EDGE_TO_SURFACE_CONSTRAINED_OFFSET_ID\n7,glue\n2,1,3,3\n"
+      ",,,,,,,0.002\n\n*CONTROL_TIMESTEP\n       0.0       0.1\n";
+  auto s = simulation_of(deck.text(1));
+  Field<Real>& spin = *shared_fields::angular_velocity.find(s->world().nodes.fields);
+  for (Index n = 0; n < 9; ++n) {
+    const Vec x = s->world().nodes.x.vec(n);
+    s->world().nodes.v.set(n, Vec(0.1 * x[1], -0.2 * x[0], x[0] * x[1]));
+    spin.set(n, Vec(0.3 * x[0], 1, -0.5));
+  }
+  test::start_ledger(*s);
+  s->step(do_nothing);
+  const auto [p, L] = tied_momenta(*s);
+  while (s->clock().t < 0.004) s->step(do_nothing);
+  const auto [p_now, L_now] = tied_momenta(*s);
+  EXPECT_EQ(s->world().counters["broken_ties"], s->world().counters["tied_nodes"]);
+  EXPECT_LT((p_now - p).norm(), 1e-12 * p.norm());
+  const Field<Index>& none = *shared_fields::no_rotation.find(s->world().nodes.fields);
+  for (Index n = 0; n < s->world().nodes.size(); ++n) EXPECT_EQ(none[n], 0) << n;
+  EXPECT_LT(test::energy_error_of_a_step(*s), 1e-3);
 }
 
 // A rigid plate hangs on a soft block by springs; the faces are the plate's, or the block's.
@@ -497,6 +578,17 @@ TEST(TiedContact, HasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
         deck.nodes, [](const Vec& x) { return Vec(std::sin(3 * x[1]), x[0] * x[2], std::cos(x[0])); });
     test::expect_same_bits(deck.text(1), 40, 17);
   }
+}
+
+// Nodes are released before the restart.
+TEST(TiedContact, ReleasedNodesHaveTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
+  SolidDeck deck = bar(5, 7, 0.3, 0.01);
+  deck.cards += tie("SURFACE_TO_SURFACE");
+  for (const int e : {5, 10, 60, 125})
+    deck.cards += fmt::format("*DEFINE_ELEMENT_DEATH_SOLID\n{},0.0005\n", e);
+  deck.cards += velocities(deck.nodes,
+                           [](const Vec& x) { return Vec(std::sin(3 * x[1]), x[0] * x[2], std::cos(x[0])); });
+  test::expect_same_bits(deck.text(1), 40, 17);
 }
 
 namespace {

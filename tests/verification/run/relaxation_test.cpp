@@ -176,6 +176,15 @@ TEST(Relaxation, ThatDoesNotConvergeIsTold) {
   EXPECT_EQ(courant::run(*alone, "test.k", options).termination, "error");
 }
 
+TEST(Relaxation, OfWhatNothingLoadsHasConvergedHoweverShortItIs) {
+  using namespace test::beams;
+  auto s = built(cantilever(square_2, 10, relaxation(100000, 1e-8, 0.9999, 0.001), 0), RunPhase::relaxation);
+  const RelaxationEnd end = relax(
+      *s, [] { return false; }, [](const std::string&) {});
+  EXPECT_TRUE(end.converged);
+  EXPECT_EQ(end.ratio, 0);
+}
+
 // A bar that turns about an end, which body loads represent: u(L) = rho w^2 L^3/(3 E).
 TEST(Relaxation, ABarThatTurnsIsStretched) {
   for (const int n : {5, 10, 20})
