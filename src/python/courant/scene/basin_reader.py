@@ -1,6 +1,7 @@
 """Water with its box, walls and bodies, in a description that needs no cards."""
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -8,12 +9,14 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..key_tables import keys as keys_of_map
-from ..yaml_map import Node, is_list, is_scalar
+from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin import Basin, add_basin
 from .joints import joined_names
-from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface
+from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface, Vector
+from .node_reader import OF_PYTHON
 from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
+from .series import read_series
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
@@ -29,11 +32,13 @@ _WATER = keys_of_map(
     "pressure number",
 )
 _BOX = keys_of_map("box", "low vector!, high vector!, open list, motion @motion")
-_MOTION = keys_of_map("motion", "x text, y text, z text, waves @waves")
+_MOTION = keys_of_map("motion", "x text|list|@a curve, y text|list|@a curve, z text|list|@a curve, waves @waves")
 _OF_WALL = keys_of_map("a wall, besides its shape", "motion @motion")
 _OF_BODY = keys_of_map("a body, besides its shape", "density number, mass number, velocity list, hold any")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
 _FEW = 1000  # cells whose particles are counted
+_LARGE = 50.0  # times the scene, above which a shape has other units
+_NAMES = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?!\s*\(|\w)")  # that are no functions, nor exponents of numbers
 MOST_MIRRORS = 12  # lines of a shape in the plane
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
@@ -65,6 +70,7 @@ class BasinReader(ShapeReader):
             basin.gravity = self.number(gravity, "gravity") or 0.0
             if basin.gravity < 0:
                 self.error(gravity, "gravity: expected its size, >= 0; it acts downwards")
+        self._check_units(root, water, basin)
         basin.end = self.length(root, "end", "time")
         basin.output = self.length(root, "output", "time") if self.get(root, "output") is not None else basin.end / 100
         if (box := self.get(root, "box")) is not None:
@@ -93,6 +99,16 @@ class BasinReader(ShapeReader):
             self.complete = False
         else:
             add_basin(basin, model)
+
+    def _check_units(self, root: Node, water: Node, basin: Basin) -> None:
+        """Of density and gravity one is in other units where the other has its default."""
+        gravity, density = self.get(root, "gravity"), self.get(water, "density")
+        if gravity is not None and density is None and any(abs(basin.gravity / size - 1) < 0.02 for size in (981, 9810)):
+            self.diagnostics.warning(self.at(gravity), f"gravity {basin.gravity:g} is that of other units than metres, and the density that of kg and metres",
+                                     "density: 1.0e-9 in tonnes and mm, 1.0e-6 in kg and mm, 1 in g and cm")
+        elif density is not None and gravity is None and 0 < basin.density < 0.01:
+            self.diagnostics.warning(self.at(density), f"density {basin.density:g} is that of other units than kg and metres, and gravity {basin.gravity:g} that of metres",
+                                     "gravity: 9810 in mm and seconds, 0 for none")
 
     def read_water(self, node: Node) -> Basin:
         basin = Basin()
@@ -146,9 +162,9 @@ class BasinReader(ShapeReader):
         if basin.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
             self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
         opened = self.get(node, "open")
-        if opened is not None and not is_list(opened):
+        if opened is not None and is_map(opened):
             self.error(opened, "open: expected a list of sides", "open: [top]")
-        for side in opened.value if opened is not None and is_list(opened) else ():
+        for side in () if opened is None or is_map(opened) else opened.value if is_list(opened) else [opened]:
             name = self.text(side)
             if name not in basin.sides:
                 self.error(side, f"open: '{name}' is no side of the box", f"its sides: {', '.join(basin.sides)}")
@@ -176,21 +192,47 @@ class BasinReader(ShapeReader):
                     continue
                 axis, made = piston.axis, piston.series
                 self.pistons.append(piston)
-            elif not is_scalar(value):
-                self.error(value, "motion: expected a formula of TIME")
+            elif (motion := self._curve(value, basin.end) if not is_scalar(value) else self._formula(value)) is None:
                 continue
             else:
-                try:
-                    made = substitute(value.value, self.variables)
-                except PlaceholderFault as fault:
-                    self.error(value, fault.message)
-                    continue
+                made = motion
             if axis in out and (key.value == "waves" or not isinstance(out[axis], str)):
                 self.error(value, f"motion: the waves and a formula both move the wall along {axis}", f"leave out the waves or '{axis}'")
             out[axis] = made
         if len(out) > 1 and any(piston.own_card for piston in self.pistons[before:]):
             self.error(entry, "motion: a flap, and a wave maker that absorbs, has no other motion", "leave out the formulas")
         return out
+
+    def _formula(self, node: Node) -> str | None:
+        """Of TIME. Functions are those of *DEFINE_CURVE_FUNCTION, which the program knows; names are checked here."""
+        example = "0.05 * sin(2 * PI * TIME / 1.2), or {file: motion.csv}"
+        if node.tag == OF_PYTHON:
+            self.error(node, f"motion: expected a formula of TIME, got {node.value}", example)
+            return None
+        try:
+            made = substitute(node.value, self.variables)
+        except PlaceholderFault as fault:
+            self.error(node, fault.message)
+            return None
+        odd = [name for name in _NAMES.findall(made) if name.upper() not in ("TIME", "PI")]
+        if odd:
+            self.error(node, f"motion: unknown name '{odd[0]}' in the formula '{made}'", f"names are TIME and PI, and of parameters ${{name}}: {example}")
+        elif made.count("(") != made.count(")"):
+            self.error(node, f"motion: as many '(' as ')' are needed in the formula '{made}'")
+        else:
+            return made
+        return None
+
+    def _curve(self, node: Node, end: float) -> np.ndarray | None:
+        """A displacement over time [L], which is kept where the curve ends before the run."""
+        rows = read_series(self, self.folder, node, "motion")
+        if rows is None:
+            return None
+        if abs(rows[0, 1]) > 1e-6 * np.abs(rows[:, 1]).max() or rows[0, 0] > 0:
+            self.error(node, f"motion: the curve begins with {rows[0, 1]:g} at {rows[0, 0]:g}: a displacement counts from the position at the start and begins "
+                       "with 0 at 0", "subtract the first value")
+            return None
+        return np.vstack([rows, [[2 * end, rows[-1, 1]]]]) if rows[-1, 0] < end else rows
 
     def read_solids(self, root: Node, basin: Basin) -> None:
         """Walls that are held or driven, and bodies that move freely."""
@@ -236,9 +278,14 @@ class BasinReader(ShapeReader):
 
     def check_solids(self, basin: Basin) -> None:
         """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""
+        scene = max((float(np.max(np.subtract(high, low))) for low, high in self._extents(basin)), default=0.0)
         for solid in basin.solids:
             low, high = np.array(solid.shape.low, float)[:basin.dim], np.array(solid.shape.high, float)[:basin.dim]
             name = solid.shape.name or "a solid"
+            longest = float(np.max(high - low))
+            if (large := longest > _LARGE * scene > 0) or longest < basin.spacing / 2:
+                self.diagnostics.warning(solid.where, f"'{name}' is {longest:g} long, " + (f"and the scene {scene:g}" if large else f"less than half of the spacing {basin.spacing:g}"),
+                                         "is it a file in millimetres? 'scale: 0.001' makes metres of them" if large else "is its 'scale' that of the file?")
             if solid.closed and self._covers(solid.shape, basin):
                 size = " x ".join(f"{length:g}" for length in high - low)
                 self.diagnostics.error(solid.where, f"'{name}', {size}, is solid and covers all the water", "of a tank, 'open: true' takes the surface alone; "
@@ -250,6 +297,11 @@ class BasinReader(ShapeReader):
                 if beyond:
                     self.diagnostics.error(solid.where, f"'{name}' reaches from {low[k]:g} to {high[k]:g} along {'xyz'[k]}, through a wall of the box from "
                                            f"{ends[0]:g} to {ends[1]:g}", "a body that begins in a wall is not held by it")
+
+    @staticmethod
+    def _extents(basin: Basin) -> list[tuple[Vector, Vector]]:
+        """Corners of the box, or of the blocks of water."""
+        return [basin.box] if basin.box else [(one.low, tuple(np.add(one.low, one.spacing * np.array(one.n)))) for one in basin.water.lattices]
 
     def _covers(self, shape: Shape, basin: Basin) -> bool:
         """Whether all particles would be inside of it, were it not there."""

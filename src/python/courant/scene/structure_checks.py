@@ -36,11 +36,19 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
 
 
 def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> None:
-    """Refuses bodies that overlap, unless both have joints: they may be parts of one thing."""
+    """Refuses bodies that overlap each other or, in space, where they touch, closed walls and ground, unless both have joints: they may be parts of one
+    thing."""
     titles = basin.rigid_parts()
     bodies = [solid for solid in basin.solids if solid.free]
     linked = [bool({solid.shape.name, str(solid.part)} & joined) for solid in bodies]
+    walls = [solid for solid in basin.solids if not solid.free and (solid.closed or solid.shape.ground)] if basin.dim == 3 else []
     for k, one in enumerate(bodies):
+        for wall in walls:
+            name = titles[wall.part]
+            if (linked[k] and {name, str(wall.part)} & joined) or {"x", "y", "z"} <= one.hold or (at := _common_point(one.shape, wall.shape, _DEPTH * basin.spacing)) is None:
+                continue
+            diagnostics.error(one.where, f"'{titles[one.part]}' begins inside of the wall '{name}', for example at ({', '.join(f'{v:.4g}' for v in at)})",
+                              "move it, or join it to the wall by a joint")
         for other, has_joint in zip(bodies[:k], linked):
             if (has_joint and linked[k]) or (at := _common_point(one.shape, other.shape, _DEPTH * basin.spacing)) is None:
                 continue
@@ -53,6 +61,8 @@ def _common_point(one: Shape, other: Shape, depth: float) -> np.ndarray | None:
     """A point inside of both shapes, of a lattice over what their boxes have in common; None where that is thinner than `depth` [L]."""
     dim = one.dim
     low, high = np.maximum(one.low, other.low)[:dim], np.minimum(one.high, other.high)[:dim]
+    if other.ground:
+        low[-1] = one.low[dim - 1]
     if not np.all(high - low > depth):
         return None
     n = 64 if dim == 2 else 16

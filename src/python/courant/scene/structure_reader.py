@@ -11,6 +11,7 @@ from ..key_tables import keys as keys_of_map
 from ..optional import MissingModule, module
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from . import meshes
+from .groups import cells_of
 from .materials import read_material
 from .meshes import SOLIDS, Mesh
 from .part_names import named_part
@@ -28,7 +29,7 @@ _KEYS = (
     *_KINDS,
     *keys_of_map(
         "of every structure",
-        "material text|@a material!, thickness number, size number|list, fix any, to any, track any, velocity list, title text, scale number|list, turn any, "
+        "material text|@a material!, thickness number, size number|list, fix any, to any, track any, velocity list, title text, group text, scale number|list, turn any, "
         "move list, close flag",
     ),
 )
@@ -169,7 +170,11 @@ def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Bas
         return reader._refuse(entry, f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
     except (Exception, SystemExit) as fault:  # libraries raise exceptions of many kinds
         return reader._refuse(entry, f"the mesh cannot be read: {' '.join(str(fault).split())[:200]}", hint)  # type: ignore[no-any-return]
-    made = meshes.of_meshio(found)
+    named = reader.get(node, "group")
+    try:
+        made = meshes.of_cells(cells_of(found), reader.text(named) if named is not None else "")
+    except ShapeFault as fault:
+        return reader._refuse(named or entry, fault.message, fault.hint)  # type: ignore[no-any-return]
     if made is None:
         kinds = ", ".join(sorted({block.type for block in found.cells})) or "none"
         return reader._refuse(entry, f"a structure: expected elements of first order, got {kinds}", hint)  # type: ignore[no-any-return]
@@ -212,8 +217,10 @@ def _filled(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basi
 
 
 def _nodes_where(reader: SceneReader, node: Node, mesh: Mesh, dim: int) -> np.ndarray:
-    """Of a side of the mesh, or where an expression of x, y, z is > 0; which, (n,) of bool."""
+    """Of a named group or a side of the mesh, or where an expression of x, y, z is > 0; which, (n,) of bool."""
     name = reader.text(node)
+    if name in mesh.groups:
+        return np.isin(np.arange(len(mesh.points)), mesh.groups[name])
     ends = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1)} if dim == 2 else _ENDS
     if name in ends:
         axis, end = ends[name]
@@ -221,7 +228,7 @@ def _nodes_where(reader: SceneReader, node: Node, mesh: Mesh, dim: int) -> np.nd
         return np.abs(mesh.points[:, axis] - limit) <= 1e-6 * float(np.max(mesh.high - mesh.low))  # type: ignore[no-any-return]
     formula = Formula(node.value, ("x", "y", "z"), reader.variables)
     if not formula.ok:
-        reader.error(node, f"fix: {formula.error}", f"a side, {', '.join(ends)}, or a condition: y < 0.01")
+        reader.error(node, f"fix: {formula.error}", f"a side, {', '.join(ends)}{''.join(f', a group, {one}' for one in mesh.groups)}, or a condition: y < 0.01")
         return np.ones(len(mesh.points), dtype=bool)
     return np.asarray(formula.over(dict(zip("xyz", mesh.points.T)), len(mesh.points)) > 0)
 
