@@ -178,7 +178,7 @@ def test_ctrl_c_ends_a_run_with_its_results_and_is_raised(tmp_path: Path, in_pro
     with ctrl_c(folder), pytest.raises(KeyboardInterrupt, match=re.escape(f"courant.open('{folder}')")):
         pool(end=100).run(folder, quiet=True, in_process=in_process)
     left = courant.open(folder)
-    assert left.summary["termination"] == "interrupted" and "stopped by a signal" in left.summary["reason"] and len(left.states) == 2
+    assert left.summary["termination"] == "interrupted" and "stopped by a signal" in left.summary["reason"] and len(left.states) >= 2
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     with pytest.raises(KeyboardInterrupt):  # and is caught as usual afterwards
         os.kill(os.getpid(), signal.SIGINT)

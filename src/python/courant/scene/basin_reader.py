@@ -39,7 +39,7 @@ _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", 
 _FEW = 1000  # cells whose particles are counted
 _LARGE = 50.0  # times the scene, above which a shape has other units
 _NAMES = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?!\s*\(|\w)")  # that are no functions, nor exponents of numbers
-MOST_MIRRORS = 12  # lines of a shape in the plane
+MOST_MIRRORS = 12  # lines of a shape in the plane, triangles of a body in space
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
 
@@ -135,7 +135,8 @@ class BasinReader(ShapeReader):
             basin.dim = self.dim = self.of_inlets
             return basin
         if bodies is None and (blocks is None or not is_list(blocks) or not blocks.value):
-            self.error(node if blocks is None else blocks, "water: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z")
+            self.error(node if blocks is None else blocks, "water: the scene has none: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z",
+                       "a run of bodies and parts alone is a deck: courant.DeckBuilder")
             return basin
         entries = blocks.value if blocks is not None and is_list(blocks) else []
         basin.water.lattices = [self.read_lattice(one, basin.spacing) for one in entries if self.is_map(one)]
@@ -159,7 +160,7 @@ class BasinReader(ShapeReader):
         low, low_dim = self.vector(node, "low")
         high, high_dim = self.vector(node, "high")
         basin.box = (low, high)
-        if basin.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
+        if self.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
             self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
         opened = self.get(node, "open")
         if opened is not None and is_map(opened):
@@ -262,6 +263,11 @@ class BasinReader(ShapeReader):
         if basin.water.lattices and not basin.inlets and sum(np.prod(one.n, dtype=float) for one in basin.water.lattices) < _FEW \
                 and sum(len(positions(one, self.variables)) for one in basin.water.lattices) == 1:
             self.error(spacing, f"spacing: with {basin.spacing:g} the water is a single particle, which has no neighbours", "a tenth of the depth of the water or less")
+        for inlet in basin.inlets:
+            behind = sum(int(inlet.waits(positions(one, self.variables), basin.spacing, basin.end).sum()) for one in basin.water.lattices)
+            if behind:
+                self.diagnostics.error(inlet.where, f"an inlet inside of the water: {behind} particles are behind it, where those wait that enter",
+                                       "an inlet is a jet into air; of a channel, a block of moving water outside of the box is the inflow")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
@@ -345,6 +351,13 @@ class BasinReader(ShapeReader):
         asked = self.text(node) if node is not None else "auto"
         # mirrors of many faces take most of the time of a run
         shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
+        for solid in basin.solids if asked == "auto" and basin.dim == 3 else ():
+            faces = len(solid.shape.faces)
+            if solid.free and faces > MOST_MIRRORS:
+                solid.by_contact = shaped = True
+                self.diagnostics.warning(solid.where, f"'{solid.shape.name or 'a body'}' acts on the water by contact and floats one to three spacings too deep: "
+                                         f"a mirror of its {faces} faces takes more than all else of the run",
+                                         f"a box or a body of at most {MOST_MIRRORS} triangles is a mirror; wall_method: ghosts suits bodies wider than eight spacings everywhere")
         basin.method = asked if asked != "auto" else "mixed" if shaped else "mirrors"
         if node is not None:
             if asked not in (*METHODS, "auto"):

@@ -39,6 +39,18 @@ class Inlet:
     end: float = 0.0  # 0: that of the run [T]
     where: Location = field(default_factory=Location)
 
+    def waits(self, x: np.ndarray, spacing: float, end: float) -> np.ndarray:
+        """Which points (n, 3) are behind the inlet, where water waits until it enters before `end` [T]. Shape (n,)."""
+        along = (x - self.at) @ self.direction
+        beside = x - self.at - along[:, None] * self.direction
+        if len(self.size) == 1:
+            within = np.linalg.norm(beside, axis=1) < self.size[0] + spacing / 4
+        else:
+            within = np.all([np.abs(beside @ axis) < size / 2 + spacing / 4 for axis, size in zip(across(self.direction), self.size)], axis=0)
+        length = self.speed * ((self.end or end) - self.start) if self.speed else np.inf
+        behind: np.ndarray = within & (along < 0) & (along > -length)
+        return behind
+
 
 @dataclass
 class Outlet:

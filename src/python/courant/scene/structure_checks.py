@@ -41,13 +41,17 @@ def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> No
     titles = basin.rigid_parts()
     bodies = [solid for solid in basin.solids if solid.free]
     linked = [bool({solid.shape.name, str(solid.part)} & joined) for solid in bodies]
-    walls = [solid for solid in basin.solids if not solid.free and (solid.closed or solid.shape.ground)] if basin.dim == 3 else []
+    walls = [solid for solid in basin.solids if not solid.free] if basin.dim == 3 else []
     for k, one in enumerate(bodies):
         for wall in walls:
             name = titles[wall.part]
-            if (linked[k] and {name, str(wall.part)} & joined) or {"x", "y", "z"} <= one.hold or (at := _common_point(one.shape, wall.shape, _DEPTH * basin.spacing)) is None:
+            if (linked[k] and {name, str(wall.part)} & joined) or {"x", "y", "z"} <= one.hold:
                 continue
-            diagnostics.error(one.where, f"'{titles[one.part]}' begins inside of the wall '{name}', for example at ({', '.join(f'{v:.4g}' for v in at)})",
+            found = _inside(one.shape, _points_on(wall.shape), _DEPTH * basin.spacing)[:1]
+            at = found[0] if len(found) else _common_point(one.shape, wall.shape, _DEPTH * basin.spacing) if wall.closed or wall.shape.ground else None
+            if at is None:
+                continue
+            diagnostics.error(one.where, f"'{titles[one.part]}' begins inside of the wall '{name}' or across it, for example at ({', '.join(f'{v:.4g}' for v in at)})",
                               "move it, or join it to the wall by a joint")
         for other, has_joint in zip(bodies[:k], linked):
             if (has_joint and linked[k]) or (at := _common_point(one.shape, other.shape, _DEPTH * basin.spacing)) is None:
@@ -55,6 +59,13 @@ def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> No
             names = [f"'{titles[body.part]}'" + (f" ({body.part})" if one.shape.name == other.shape.name else "") for body in (other, one)]
             diagnostics.error(one.where, f"{' and '.join(names)} overlap, for example at ({', '.join(f'{v:.4g}' for v in at[: basin.dim])})",
                               "move one of them, or join them by a joint" + (": bodies of the plane do not touch each other" if basin.dim == 2 else ""))
+
+
+def _points_on(shape: Shape) -> np.ndarray:
+    """Points inside of the faces of a shape in space (n, 3) [L]."""
+    weights = np.array([(i + 1, j + 1, 7 - i - j) for i in range(7) for j in range(7 - i)]) / 9
+    points: np.ndarray = np.einsum("kc,fcd->fkd", weights, shape.points[shape.faces]).reshape(-1, 3)
+    return points
 
 
 def _common_point(one: Shape, other: Shape, depth: float) -> np.ndarray | None:

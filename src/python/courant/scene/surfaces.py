@@ -163,7 +163,7 @@ def sound(shape: Shape, closed: bool, close: bool) -> Shape:
         where = ", ".join(f"{axis} = {v:.4g}" for axis, v in zip("xyz", centre[: shape.dim]))
         what = "a hole" if len(found) == 1 else f"{len(found)} holes, the largest"
         of = f", {size:.3g} across, of {count} edges" if shape.dim == 3 else ""
-        raise ShapeFault(f"the {'surface' if shape.dim == 3 else 'line'} is not closed: {what} at {where}{of}", "close: true, in Python close=True, fills holes; open: true takes it as thin")
+        raise ShapeFault(f"the {'surface' if shape.dim == 3 else 'line'} is not closed: {what} at {where}{of}", "close: true, in Python close=True, fills holes; open: true takes it as thin" + ("; ground: true takes a terrain as solid below" if shape.dim == 3 else ""))
     if closed and len(edges.crowded):
         a = shape.points[edges.crowded[0]].mean(axis=0)
         where = ", ".join(f"{axis} = {v:.4g}" for axis, v in zip("xyz", a[: shape.dim]))
