@@ -62,7 +62,7 @@ def _joined(lines: list[tuple[np.ndarray, bool]]) -> list[tuple[np.ndarray, bool
 def two_columns(text: str) -> np.ndarray:
     """Two numbers a line, with a comma, a semicolon or blanks between, and with a semicolon also decimal commas; a third is 0, as the z of an outline. A
     heading and comments are left out. Shape (n, 2). Raises ValueError."""
-    rows = []
+    rows: list[list[float]] = []
     for number, line in enumerate(text.splitlines(), 1):
         words = re.split(r"[;\s]+" if ";" in line else r"[,\s]+", line.strip().strip(",;"))
         if not words[0] or line.lstrip().startswith(("#", "$")):

@@ -20,13 +20,13 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
     free_of = [np.delete(one.mesh.points, one.fixed, axis=0) for one in basin.structures]
     for k, (one, free) in enumerate(zip(basin.structures, free_of)):
         _check_box(one, free, basin, depth, diagnostics)
-        for other in basin.solids:
-            if not other.closed:
+        for rigid in basin.solids:
+            if not rigid.closed:
                 continue
-            name = f"'{other.shape.name}'" if other.shape.name else "a wall or body"
-            found = _inside(other.shape, free, depth)
+            name = f"'{rigid.shape.name}'" if rigid.shape.name else "a wall or body"
+            found = _inside(rigid.shape, free, depth)
             if not len(found) and id(one) in solid:
-                found = _inside(solid[id(one)], other.shape.points, depth)
+                found = _inside(solid[id(one)], rigid.shape.points, depth)
             _report(one, found, name, dim, diagnostics)
         for other, free_of_other in zip(basin.structures[:k], free_of):
             found = _inside(solid[id(other)], free, depth) if id(other) in solid else free[:0]
