@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -206,6 +207,39 @@ def test_gases_need_some_width() -> None:
 def test_a_scene_without_water_says_so() -> None:
     text = said(courant.Scene("drop", spacing=0.05, end=0.1).box(low=(0, 0, 0), high=(1, 1, 1)).body(box={"low": (0.4, 0.4, 0.4), "high": (0.6, 0.6, 0.6)}, density=800))
     assert text.count("error") == 1 and "the scene has none" in text and "courant.DeckBuilder" in text
+
+
+def test_numbers_that_are_none_are_named_once(tmp_path: Path) -> None:
+    assert "spacing: expected a finite number, got 'nan'" in said(plane(spacing=float("nan")))
+    text = "title: a\nwater: {spacing: 0.05, blocks: [{low: [0, 0], high: [0.5, 0.5]}]}\nend: .inf\n"
+    assert "scene.yaml:3:6: error: end: expected a finite number, got '.inf'\n" in written(tmp_path, text).messages
+
+
+PARTS = """title: hull
+parameters: {n: 4}
+water: {spacing: 0.5 / n, blocks: [{low: [0, 0], high: [2, 0.5]}]}
+box: {low: [0, 0], high: [2, 1], open: [top], motion: {x: [[0, 0], [1, 0.1]]}}
+walls: [{line: [[1.5, 0], [1.6, 0.3]], title: weir, motion: {y: 0.1 * TIME}}]
+bodies: [{box: {low: [0.5, 0.4], high: [0.8, 0.7]}, density: 500, title: raft}]
+structures: [{box: {low: [1, 0.6], high: [1.1, 0.9]}, material: rubber, fix: top}]
+joints: [{kind: hinge, between: [raft, walls], at: [0.5, 0.5]}]
+gauges: [{name: a, point: [0.1, 0.1]}]
+end: 1
+"""
+VALUES = ["[]", "{}", "-1", "x", "[1]", "{a: 1}", ".nan", "1e400", "null", "[[0, 0], [1, 1]]", "true", "TIME", "[[]]", "{file: x}"]
+
+
+def test_a_wrong_value_anywhere_has_its_line(tmp_path: Path) -> None:
+    spots, random = [found.span() for found in re.finditer(r"[\w./*]+|\[[^\[\]]*\]|\{[^{}]*\}", PARTS)], np.random.default_rng(1)
+    assert written(tmp_path, PARTS).deck
+    refused = 0
+    for _ in range(200):
+        begin, end = spots[random.integers(len(spots))]
+        text = PARTS[:begin] + VALUES[random.integers(len(VALUES))] + PARTS[end:]
+        made = written(tmp_path, text)
+        refused += not made.deck
+        assert made.deck or "scene.yaml:" in made.messages, text
+    assert refused > 100
 
 
 def test_hints_of_extents_and_gauges() -> None:
