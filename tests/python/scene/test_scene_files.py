@@ -102,6 +102,8 @@ def test_arcs_of_a_dxf_polyline(tmp_path: Path) -> None:
                     "0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n42\n1\n10\n1\n20\n0\n10\n1\n20\n1\n10\n0\n20\n1\n0\nENDSEC\n0\nEOF\n")
     outline = sound(read_outline(file), closed=True, close=False)
     assert abs(outline.volume() - (1 + math.pi / 8)) < 2e-3 and outline.low[1] == pytest.approx(-0.5, abs=2e-3)
+    file.write_text(file.read_text().replace("42\n1\n", f"42\n{-math.tan(math.pi / 8)}\n"))  # a quarter of a circle, inwards
+    assert abs(sound(read_outline(file), closed=True, close=False).volume() - (1 - (math.pi / 2 - 1) / 4)) < 2e-3
     file.write_text("0\nSPLINE\n10\n0\n20\n0\n0\nEOF\n")
     with pytest.raises(ShapeFault, match="a SPLINE is not read here"):
         read_shape(file)
@@ -193,6 +195,7 @@ def test_an_inlet_inside_of_the_water_is_refused_at_its_line() -> None:
     assert "test_scene_files.py:" in said(space().inlet(at=(0.5, 0.2, 0.1), direction=(1, 0, 0), sides=(0.1, 0.1), speed=1))
     plane().inlet(at=(0.2, 0.3), direction=(1, 0), width=0.1, speed=1).deck()
     plane().inlet(at=(0.5, 0.1), direction=(1, 0), width=0.1, speed=0.1).deck()  # what waits does not reach the water
+    courant.Scene("ahead", spacing=0.02, end=1).water(low=(0.2, 0), high=(0.4, 0.2)).inlet(at=(0.1, 0.1), direction=(1, 0), width=0.1, speed=1).deck()
 
 
 def test_gases_need_some_width() -> None:
