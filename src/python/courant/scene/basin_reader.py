@@ -357,7 +357,7 @@ class BasinReader(ShapeReader):
                 solid.by_contact = shaped = True
                 self.diagnostics.warning(solid.where, f"'{solid.shape.name or 'a body'}' acts on the water by contact and floats one to three spacings too deep: "
                                          f"a mirror of its {faces} faces takes more than all else of the run",
-                                         f"a box or a body of at most {MOST_MIRRORS} triangles is a mirror; wall_method: ghosts suits bodies wider than eight spacings everywhere")
+                                         f"a box or a body of at most {MOST_MIRRORS} triangles is a mirror; wall_method: ghosts suits calm water and bodies without thin edges")
         basin.method = asked if asked != "auto" else "mixed" if shaped else "mirrors"
         if node is not None:
             if asked not in (*METHODS, "auto"):
