@@ -307,25 +307,17 @@ def test_points_of_elements_with_odd_counts(binout_folder: Path) -> None:
 
 
 @needs_courant
-def test_post_without_a_recipe_writes_the_report_with_all_sections(binout_folder: Path) -> None:
+def test_reports_of_one_folder_and_of_two(binout_folder: Path, tmp_path: Path) -> None:
+    """Of runs without states and histories, whose pictures take longest; test_report.py has those."""
     pytest.importorskip("matplotlib")
-    made = subprocess.run([COURANT, "post", str(binout_folder)], check=True, timeout=300, capture_output=True, text=True)
-    assert made.stdout == f"report: {binout_folder / 'report.html'}\n"
-    text = (binout_folder / "report.html").read_text()
-    for section in ("Verdict", "States", "Energies", "Time step", "Histories", "Warnings", "Timings"):
-        assert f"<h2>{section}</h2>" in text
-    assert text.count("data:image/png;base64,") >= 12 and "src=\"http" not in text and "href=" not in text
-    assert "each kind of element" in text and "beams take no part in contact" in text
-    nothing = subprocess.run([COURANT, "post", str(binout_folder / "none")], timeout=60, capture_output=True, text=True)
-    assert nothing.returncode == 1 and "no such folder" in nothing.stderr
-
-
-@needs_courant
-def test_report_compares_two_folders(binout_folder: Path, tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
-    for name in ("one", "other"):  # without states and histories, whose pictures take longest
+    for name in ("one", "other"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "summary.yaml").write_bytes((binout_folder / "summary.yaml").read_bytes())
+    made = subprocess.run([COURANT, "post", str(tmp_path / "one")], check=True, timeout=300, capture_output=True, text=True)
+    assert made.stdout == f"report: {tmp_path / 'one' / 'report.html'}\n"
+    assert "<h2>Verdict</h2>" in (tmp_path / "one" / "report.html").read_text()
+    nothing = subprocess.run([COURANT, "post", str(tmp_path / "none")], timeout=60, capture_output=True, text=True)
+    assert nothing.returncode == 1 and "no such folder" in nothing.stderr
     words = [COURANT, "report", str(tmp_path / "one"), str(tmp_path / "other"), "-o", str(tmp_path / "page.html")]
     subprocess.run(words, check=True, timeout=300, capture_output=True)
     text = (tmp_path / "page.html").read_text()

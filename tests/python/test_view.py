@@ -18,7 +18,7 @@ def no_display(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def scene() -> courant.Scene:
-    return courant.Scene("drop", spacing=0.05, end=0.02, output=0.01).water(low=(0, 0), high=(0.4, 0.4))
+    return courant.Scene("drop", spacing=0.02, end=0.02, output=0.01).water(low=(0, 0), high=(0.4, 0.4))
 
 
 @needs_program

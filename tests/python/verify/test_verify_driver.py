@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from made_results import write_history
 
-from courant.verify import cli
+from courant.verify import cli, take
 
 HERE = Path(__file__).resolve().parent
 SUITE = """
@@ -221,7 +221,8 @@ def test_interrupted_and_killed_calls_go_on(call: Caller) -> None:
     assert "2 of 3 runs are taken over" in call()
 
 
-def test_functions_of_ones_own(call: Caller) -> None:
+def test_functions_of_ones_own(call: Caller, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(take, "functions", dict(take.functions))  # what is added here is not there for other tests
     (call.folder / "mine.py").write_text(
         "from courant.verify import take\n\n\n@take('spread')\ndef spread(series, at):\n    return float(series.y.max() - series.y.min())\n"
     )
