@@ -74,7 +74,8 @@ def deck(folder: Path, end: float = 0.01, more: str = "") -> Path:
 
 
 def pool(**keys: Any) -> courant.Scene:
-    scene = courant.Scene("pool", **({"spacing": 0.05, "end": 0.03, "output": 0.01} | keys))
+    # by contact: mirrors beside the body take most of the time, and are compared with the command line in test_scene_runs.py
+    scene = courant.Scene("pool", **({"spacing": 0.05, "end": 0.03, "output": 0.01, "wall_method": "contact"} | keys))
     scene.water(low=(0, 0, 0), high=(0.4, 0.3, 0.2)).box(low=(0, 0, 0), high=(0.6, 0.3, 0.4), open=["top"])
     return scene.body(box={"low": [0.1, 0.1, 0.25], "high": [0.2, 0.2, 0.3]}, density=500)
 
@@ -177,7 +178,7 @@ def test_ctrl_c_ends_a_run_with_its_results_and_is_raised(tmp_path: Path, in_pro
     with ctrl_c(folder), pytest.raises(KeyboardInterrupt, match=re.escape(f"courant.open('{folder}')")):
         pool(end=100).run(folder, quiet=True, in_process=in_process)
     left = courant.open(folder)
-    assert left.summary["termination"] == "interrupted" and "stopped by a signal" in left.summary["reason"] and len(left.states) == 2
+    assert left.summary["termination"] == "interrupted" and "stopped by a signal" in left.summary["reason"] and len(left.states) >= 2
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
     with pytest.raises(KeyboardInterrupt):  # and is caught as usual afterwards
         os.kill(os.getpid(), signal.SIGINT)

@@ -21,10 +21,9 @@ def test_a_preview_is_drawn_as_often_as_asked(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     scene = courant.Scene("drop", spacing=0.02, end=0.02).water(low=(0, 0), high=(0.4, 0.4))
     scene.preview(tmp_path / "scene.png")
-    file = scene.write(tmp_path / "drop.k")
-    for k in range(2):
-        courant.preview(file, tmp_path / f"{k}.png")
-        assert (tmp_path / f"{k}.png").stat().st_size > 0
+    courant.preview(scene.write(tmp_path / "drop.k"), tmp_path / "deck.png")
+    for name in ("scene", "deck"):
+        assert (tmp_path / f"{name}.png").stat().st_size > 0
 
 
 STILL = """*KEYWORD

@@ -190,6 +190,11 @@ def test_a_run_with_each_kind_of_element(mixed):
         assert title in text, title
     assert "von Mises stress (of shells the largest of their layers); first, middle and last" in text and "grey: without it (part" in text
     assert "first time step" in text and "the step is set by" in text and "particles by speed" in text
+    assert "each kind of element" in text and "beams take no part in contact" in text
+    page = (mixed / "report.html").read_text()
+    for section in ("Verdict", "States", "Energies", "Time step", "Histories", "Warnings", "Timings"):
+        assert f"<h2>{section}</h2>" in page
+    assert page.count("data:image/png;base64,") >= 12 and "src=\"http" not in page and "href=" not in page
 
 
 @needs_courant

@@ -418,7 +418,6 @@ class TestRecipe:
         assert (cubes.folder / "post/stress_mises.png").stat().st_size > 3000 and "stress_mises.png" in capsys.readouterr().out
         assert main(["--view", "stress.mised", str(cubes.folder)]) == 1 and "did you mean stress.mises?" in capsys.readouterr().err
         assert main(["--view", "speed", str(tmp_path / "none")]) == 1 and "no such folder" in capsys.readouterr().err
-        assert main([str(cubes.folder)]) == 0 and "report.html" in capsys.readouterr().out
 
     def test_views_of_a_run_without_particles(self, cubes, tmp_path):
         from courant.post import run_post

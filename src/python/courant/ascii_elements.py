@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from .ascii_kinds import AsciiFault, AsciiKey, AsciiStates, Lines, Text, ascii_kind
 
@@ -26,8 +27,10 @@ class _Elout:
     """Where one is in the file: the kind of elements of a table, its columns, the element of the rows."""
 
     def __init__(self, states: AsciiStates) -> None:
-        self.states, self.kind, self.names, self.id, self.points = states, "", (), None, {}  # type: ignore[var-annotated]
-        self.history = False
+        self.states, self.kind, self.history = states, "", False
+        self.names: tuple[str, ...] = ()
+        self.id: int | None = None
+        self.points: dict[Any, Any] = {}
 
     def heading(self, line: str) -> None:
         text = Text(line).behind("at time")

@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -41,7 +42,7 @@ class _Lsda:
         if head[0] < 8 or sizes[0] not in (4, 8) or sizes[1] not in (4, 8) or sizes[2] != 1 or sizes[3] != 1:
             raise BinoutFault("it is no binout")
         self._length, self._offset = sizes[0], sizes[1]
-        self._order = "little" if head[5] else "big"
+        self._order: Literal["little", "big"] = "little" if head[5] else "big"
         self._read(head[0])
 
     def _number(self, at: int, width: int) -> int:
@@ -113,8 +114,8 @@ class BinoutFile(Mapping[str, np.ndarray]):
 
     def __init__(self, *paths: str | os.PathLike[str]) -> None:
         arrays: dict[str, np.ndarray] = {}
-        for path in map(Path, paths):
-            for part in [path, *sorted(path.parent.glob(f"{path.name}%*"))]:
+        for file in map(Path, paths):
+            for part in [file, *sorted(file.parent.glob(f"{file.name}%*"))]:
                 _Lsda(part, arrays)
         self._fixed: dict[str, np.ndarray] = {}
         states: dict[str, dict[int, np.ndarray]] = {}

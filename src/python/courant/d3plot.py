@@ -61,7 +61,8 @@ class D3plotFile:
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path, self.warnings = Path(path), []
+        self.path = Path(path)
+        self.warnings: list[str] = []
         if not self.path.exists() and (behind := _files_behind(self.path)):
             names = behind[0].name + (f" to {behind[-1].name}" if len(behind) > 1 else "")
             raise D3plotFault(f"it is gone: {names} hold states, but the nodes and elements were in {self.path.name}")
@@ -99,8 +100,8 @@ class D3plotFile:
         words.at = (64 + h["extra"]) * words.width
         self.rigid_shells, self.part_types = 0, np.empty(0, int)
         if h["ndim"] in (5, 7):
-            self.rigid_shells, count = (int(v) for v in words.take(2))
-            self.part_types = words.take(count)
+            self.rigid_shells, some = (int(v) for v in words.take(2))
+            self.part_types = words.take(some)
         self._sph = [int(v) for v in words.take(1)] if h["nmsph"] else []
         if self._sph:
             self._sph += [int(v) for v in words.take(self._sph[0] - 1)][:10]

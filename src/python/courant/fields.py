@@ -363,7 +363,7 @@ def read_particles(
     errors, found = diagnostics.errors, dict[str, np.ndarray]()
 
     def read(section: str, one: Wanted) -> None:
-        if one.name in (missing or {}) and not file.has(section, one.name):
+        if missing and one.name in missing and not file.has(section, one.name):
             found[one.name] = np.full(file.points, missing[one.name])
         if one.name not in found and not (one.optional and not file.has(section, one.name)):
             values = read_array(file, section, one.name, one.components, diagnostics)

@@ -48,7 +48,16 @@ def note_input(file: Path) -> None:
         known = file.stat()
     except OSError:
         return
-    _inputs[known.st_dev, known.st_ino] = str(file)
+    _inputs[known.st_dev, known.st_ino] = os.path.abspath(file)
+
+
+def _input_at(known: os.stat_result) -> str:
+    """The input that this file is, "" where it is none: the number of one that was removed since may be that of a new file."""
+    name = _inputs.get((known.st_dev, known.st_ino), "")
+    try:
+        return name if name and os.path.samestat(os.stat(name), known) else ""
+    except OSError:
+        return ""
 
 
 def _fault(text: str) -> OSError:
@@ -65,7 +74,7 @@ def _check(file: Path) -> None:
         raise _fault("it is a link, and results are not written through links")
     if not stat.S_ISREG(known.st_mode):
         raise _fault("it is no file")
-    if name := _inputs.get((known.st_dev, known.st_ino)):
+    if name := _input_at(known):
         raise _fault(f"it is the input '{name}'")
 
 

@@ -455,10 +455,10 @@ class Results:
         if not some:
             raise KeyError("the run has no contacts")
         t = some[0]["t"]
-        columns = [(name, some[0].units[name], -sum(one[name] for one in some)) for name in ("force.x", "force.y", "force.z")]
+        columns = [(name, some[0].units[name], -np.sum([one[name] for one in some], axis=0)) for name in ("force.x", "force.y", "force.z")]
         for axis, (_, unit, force) in zip("xyz", list(columns)):
             if all(f"impulse.{axis}" in one for one in some):  # runs of earlier versions have none
-                impulse = -sum(one[f"impulse.{axis}"] for one in some)
+                impulse = -np.sum([one[f"impulse.{axis}"] for one in some], axis=0)
                 mean = np.append(force[:1], np.diff(impulse) / np.maximum(np.diff(t), 1e-300))
                 columns += [(f"mean.{axis}", unit, mean), (f"impulse.{axis}", some[0].units[f"impulse.{axis}"], impulse)]
         return table_of("wall force", [("t", some[0].units["t"], t), *columns])

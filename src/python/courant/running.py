@@ -67,7 +67,7 @@ def run(deck: str | PathLike[str], folder: str | PathLike[str] = "results", *, u
     RunFailed where the run ended in error or its verdict is "broken".
     """
     check_options(until=until, threads=threads, callback=callback, every_steps=every_steps, every=every)
-    options = dict(until=until, threads=threads, parameters=parameters, restart=restart, quiet=quiet, progress=progress)
+    options: dict[str, Any] = dict(until=until, threads=threads, parameters=parameters, restart=restart, quiet=quiet, progress=progress)
     inside = _may_run_inside(deck, callback is not None, in_process)
     if fspath(deck).endswith((".yaml", ".yml")) and inside:
         from .scene.scene import Scene

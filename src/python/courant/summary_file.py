@@ -47,8 +47,8 @@ def read_summary(file: Path) -> dict[str, Any]:
     if not isinstance(found, dict):
         diagnostics.error(file, f"not the summary of a run: it is {_WORDS.get(type(found), 'something else')}, not a map", hint)
         raise CourantError(diagnostics)
-    for fault in _faults(found):
-        diagnostics.error(file, f"not the summary of a run: {fault}", hint)
+    for what in _faults(found):
+        diagnostics.error(file, f"not the summary of a run: {what}", hint)
     if not diagnostics.ok:
         raise CourantError(diagnostics)
     return found

@@ -162,7 +162,7 @@ def _measured(measure: Measure, results: Run, chosen: Mapping[str, Any]) -> dict
 def _deck(what: Scene | str | PathLike[str], chosen: Mapping[str, Any], folder: Path) -> tuple[Path, dict[str, str]]:
     """The deck of a run, and the parameters that it still has."""
     given = {name: _text(value) for name, value in chosen.items()}
-    if not _is_scene(what):
+    if not isinstance(what, Scene) and not _is_scene(what):
         return Path(fspath(what)), given
     scene = what.with_parameters(**given) if isinstance(what, Scene) else Scene.from_yaml(what, **given)
     text = scene.deck()

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import MISSING, field, fields
 from pathlib import Path
-from typing import Any, List, TypeVar  # list is a method here
+from typing import Any, List, TypeAlias, TypeVar  # list is a method here
 
 import yaml
 
@@ -16,7 +16,7 @@ from .files import note_input
 from .key_tables import keys as keys_of_map
 from .words import did_you_mean, shortest
 
-Node = yaml.Node
+Node: TypeAlias = yaml.Node
 _Loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _NUMBER = re.compile(r"\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*")
 _DEEPEST = 200  # maps and lists in each other: keeps hostile input from exhausting the stack

@@ -242,7 +242,7 @@ def test_methods_of_walls_are_those_asked_for(tmp_path: Path) -> None:
     def mirrors(text: str) -> list[int]:
         return [int(word) for word in text.split("\n         5\n")[1].splitlines()[1].split()]
 
-    mixed, plain, all_of = deck(), deck(wall_method="contact"), deck(wall_method="mirrors")
+    mixed, plain, all_of = deck(wall_method="mixed"), deck(wall_method="contact"), deck(wall_method="mirrors")
     assert mirrors(mixed) == [11, 101] and "\n        12         2         2" in mixed and "\n       101         2       101" in mixed
     assert mirrors(all_of) == [11, 12, 101] and "\n        12         2         2" in all_of
     assert "*COURANT_WALL_SUPPORT" not in plain and "\n       101         2       101" in plain

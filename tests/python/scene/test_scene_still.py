@@ -40,7 +40,7 @@ def trough(**keys: object) -> courant.Scene:
 
 def test_distances_are_those_from_each_face() -> None:
     random = np.random.default_rng(1)
-    x = random.uniform(-0.5, 1.5, (400, 3))
+    x = random.uniform(-0.5, 1.5, (150, 3))
     t = np.linspace(0, 1, 201)
     triangle = plate(np.zeros(3), np.array([1.0, 0, 0.2]), np.array([0.3, 1.0, 0]))
     near = distances(triangle, x, 0.4)

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import csv
+import io
 import os
 import signal
 import subprocess
 import sys
 import time
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
+import numpy as np
 import pytest
+from made_results import write_history
+
+from courant.verify import cli, take
 
 HERE = Path(__file__).resolve().parent
 SUITE = """
@@ -27,16 +33,26 @@ cases:
 """
 
 
+@pytest.fixture(scope="module")
+def histories(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Those that the made solver copies: an interpreter with numpy and h5py for each of its runs takes most of the time."""
+    out, t = tmp_path_factory.mktemp("histories"), np.linspace(0, 1, 11)
+    for n in (10, 20, 40):
+        write_history(out / f"{n}.h5", {"/global/time": t, "/global/kinetic": t**2 * (1 + 1 / n**2)})
+    return out
+
+
 class Caller:
     """Calls in a folder of their own."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, histories: Path) -> None:
         self.folder = folder
         (folder / "scene.yaml").write_text("parameters: {n: 10, how: 0, seconds: 0.5}\n")
         self.write(SUITE)
         self.environment = dict(
             os.environ,
             COUNT=str(folder / "count"),
+            HISTORIES=str(histories),
             COURANT_EXECUTABLE=str(HERE / "fake_courant.py"),
             PYTHONPATH=str(HERE.parents[2] / "src" / "python"),
         )
@@ -48,12 +64,23 @@ class Caller:
     def words(self, *more: str) -> list[str]:
         return [sys.executable, "-c", "import sys; from courant.verify.cli import main; sys.exit(main(sys.argv[1:]))", "suite.yaml", *more]
 
-    def __call__(self, *more: str, code: int = 0) -> str:
-        done = subprocess.run(
-            self.words(*more), cwd=self.folder, env=self.environment, capture_output=True, text=True, timeout=120, check=False
-        )
-        assert done.returncode == code, done.stdout + done.stderr
-        return done.stdout + done.stderr
+    def __call__(self, *more: str, code: int = 0, reports: bool = False) -> str:
+        """A call in this process; charts take longest, and are written where they are looked at."""
+        out, handlers = io.StringIO(), [(number, signal.getsignal(number)) for number in (signal.SIGINT, signal.SIGTERM)]
+        with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(out):
+            patch.chdir(self.folder)
+            for name, value in self.environment.items():
+                patch.setenv(name, value)
+            if not reports:
+                patch.setattr(cli, "write_reports", lambda *_: None)
+            try:
+                ended = cli.main(["suite.yaml", *more])
+            except SystemExit as end:  # of wrong words
+                ended = int(str(end.code))
+            for number, handler in handlers:
+                signal.signal(number, handler)
+        assert ended == code, out.getvalue()
+        return out.getvalue()
 
     def runs(self) -> int:
         """How many there were since the last question."""
@@ -68,17 +95,17 @@ class Caller:
 
 
 @pytest.fixture
-def call(tmp_path: Path) -> Caller:
-    return Caller(tmp_path)
+def call(tmp_path: Path, histories: Path) -> Caller:
+    return Caller(tmp_path, histories)
 
 
 def test_runs_are_judged_and_taken_over(call: Caller) -> None:
-    said = call("--page", "page.md")
+    said = call("--page", "page.md", reports=True)
     assert "4 of 4 checks met, 0 missed" in said and "[6/6] growth" in said
     assert call.runs() == 6
     errors = [float(row["error"]) for row in call.rows() if row["setting"] == "plain" and row["observation"] == "final"]
     assert errors == pytest.approx([1e-2, 2.5e-3, 6.25e-4])
-    assert (call.folder / "page" / "growth-final-error.svg").is_file()
+    assert (call.folder / "page" / "growth-final-error.svg").is_file() and (call.folder / "suite_verify" / "report.html").is_file()
     assert "6 of 6 runs are taken over" in call()
     assert call.runs() == 0
     (call.folder / "suite_verify" / "runs" / "growth" / "plain-20" / "record.yaml").unlink()
@@ -194,7 +221,8 @@ def test_interrupted_and_killed_calls_go_on(call: Caller) -> None:
     assert "2 of 3 runs are taken over" in call()
 
 
-def test_functions_of_ones_own(call: Caller) -> None:
+def test_functions_of_ones_own(call: Caller, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(take, "functions", dict(take.functions))  # what is added here is not there for other tests
     (call.folder / "mine.py").write_text(
         "from courant.verify import take\n\n\n@take('spread')\ndef spread(series, at):\n    return float(series.y.max() - series.y.min())\n"
     )

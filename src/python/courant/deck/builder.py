@@ -31,7 +31,7 @@ class Grid(NamedTuple):
         return int(np.argmin(np.linalg.norm(self.unit - np.array(point), axis=1)))
 
 
-_CORNERS = {1: [(0,), (1,)], 2: [(0, 0), (1, 0), (1, 1), (0, 1)],
+_CORNERS: dict[int, list[tuple[int, ...]]] = {1: [(0,), (1,)], 2: [(0, 0), (1, 0), (1, 1), (0, 1)],
             3: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]}
 
 

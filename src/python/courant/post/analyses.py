@@ -275,7 +275,8 @@ class FunctionAnalysis(Analysis):
         parameters = list(inspect.signature(function).parameters.values())[1:]
         keys.allow("kind", "name", "from", "to", *(one.name for one in parameters))
         self.window = TimeWindow.read(keys)
-        self.function, self.arguments, self._needs = function, {}, needs
+        self.function, self._needs = function, needs
+        self.arguments: dict[str, Any] = {}
         for one in parameters:
             node = keys.get(one.name, required=one.default is one.empty)
             if node is None:

@@ -145,7 +145,7 @@ class SoundnessAnalysis(Analysis):
         self.table_over_time()
         moments = [Moments.of(one.values[inside]) for one in self.series()]
         for name, value in zip(("mach_most", "density_least", "density_most"), (moments[0].most, moments[1].least, moments[2].most), strict=True):
-            self.add_scalar(name, "-", value if np.isfinite(value) else math.nan)
+            self.add_scalar(name, "-", float(value) if np.isfinite(value) else math.nan)
         density = f"density {moments[1].least:.4f} to {moments[2].most:.4f} rho0" if moments[1].n else "density unknown, not in the files"
         self.say(f"  Mach at most {moments[0].most:.4f}, {density}, in {inside.sum()} states\n")
         self._take_summary(run)

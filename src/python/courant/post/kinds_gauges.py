@@ -205,7 +205,7 @@ class CorrelationAnalysis(Analysis):
     def _write(self, places: list[str], by_place: dict[str, dict[str, Series]], inside: np.ndarray) -> None:
         length, table = self.unit(L=1), self.add_table()
         first = self.pairs[0][0]
-        table.add("distance", length, [as_number(place) if as_number(place) is not None else math.nan for place in places])
+        table.add("distance", length, [math.nan if (at := as_number(place)) is None else at for place in places])
         table.add("x", length, [by_place[place][first].x for place in places])
         for a, b in self.pairs:
             both = [correlation(by_place[place][a].values[inside], by_place[place][b].values[inside]) for place in places]

@@ -158,16 +158,24 @@ class Raster:
 
     def shadows(self, thick: float, strength: float = 0.45, reach: int = 4) -> None:
         """Darker where neighbours lie nearer to the eye by `thick` [L] or more: edges and folds stand out (eye-dome lighting; Boucheny 2009)."""
-        near = np.where(np.isfinite(self.depth), self.depth, np.nan)
-        dark = np.zeros(self.size)
+        if not self.lit.any():
+            return
+        rows, columns = (slice(int(some[0]), int(some[-1]) + 1) for some in (np.flatnonzero(self.lit.any(axis=axis)) for axis in (1, 0)))
+        lit, drawn = self.lit[rows, columns], np.isfinite(self.depth[rows, columns])
+        height, width = lit.shape
+        around = np.pad(np.where(drawn, self.depth[rows, columns], -np.inf), reach, constant_values=-np.inf)
+        near = np.where(drawn, self.depth[rows, columns], np.inf)
+        dark, more = np.zeros(lit.shape), np.empty(lit.shape)
         sides = [(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, 1), (-1, -1)]
         for step in (1, reach):
             for dr, dc in sides:
-                other = np.roll(near, (dr * step, dc * step), (0, 1))
-                with np.errstate(invalid="ignore"):
-                    dark += np.nan_to_num(np.clip((other - near) / thick - 0.25, 0, 1.0))
+                top, left = reach - dr * step, reach - dc * step
+                np.subtract(around[top : top + height, left : left + width], near, out=more)
+                more /= thick
+                more -= 0.25
+                dark += np.clip(more, 0, 1.0, out=more)
         shade = 1 - strength * np.clip(dark / (2 * len(sides)) * 2, 0, 1)
-        self.colour[self.lit] *= shade[self.lit, None].astype(np.float32)
+        self.colour[rows, columns][lit] *= shade[lit, None].astype(np.float32)
 
     def smaller(self, by: int) -> np.ndarray:
         """The picture with `by` x `by` pixels averaged, (height / by, width / by, 3)."""

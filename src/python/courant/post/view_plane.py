@@ -61,7 +61,7 @@ def fill(x: np.ndarray, V: np.ndarray, h: np.ndarray, values: np.ndarray, window
     radius = np.maximum(np.sqrt(V[drop] / np.pi), 0.71 * dx)
     near = np.full(C.shape, False)
     most = int(radius.max(initial=0.0) / dx) + 1
-    for q, _, p, _ in _points_near(across[drop], up[drop], column[drop], row[drop], radius, dx, most, C.shape[::-1]):
+    for q, _, p, _ in _points_near(across[drop], up[drop], column[drop], row[drop], radius, dx, most, (C.shape[1], C.shape[0])):
         near[q, p] = True
     wet = _closed((C >= 0.5) | near, 0.5 * float(np.median(h)) / dx) & (C > 0)
     with np.errstate(divide="ignore", invalid="ignore"):

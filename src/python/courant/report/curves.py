@@ -60,7 +60,7 @@ def _draw_lines(axes: Any, entity: Entity, lines: Lines, run: int, runs: int, na
     for k, (label, values) in enumerate(some):
         if label in zero and len(zero) < len(some):
             continue
-        look = {"color": "#000000" if label == "size" else _COLOURS[k % len(_COLOURS)]}
+        look: dict[str, Any] = {"color": "#000000" if label == "size" else _COLOURS[k % len(_COLOURS)]}
         look["linestyle"] = _OF_RUN[run] if runs > 1 else (":" if label == "size" else _DASHES[k % 4])
         word = "|" + lines.label + "|" if label == "size" else label
         draw(axes, entity.t, values, label=f"{word} ({name})" if runs > 1 else word, **look)
@@ -164,7 +164,7 @@ class Gallery:
         if kind.together:
             made = self._together(found)
         else:
-            made, zero = "", []
+            made, zero = "", list[str]()
             totals = [(run, total) for run, one in found if kind.sum and (total := _sum(one)) is not None]
             if totals and len(totals) == len(found):
                 made += self._of_entity("", totals)[0]

@@ -113,9 +113,9 @@ def page_of(runs: Sequence[Results]) -> str:
     for title in _ORDER:
         if title in _OF_EACH:
             make: Any = _OF_EACH[title]
-            parts = [attempt(lambda: make(run, source), title) for run, source in zip(runs, sources, strict=True)]  # noqa: B023
-            head = [f"<h3>{html.escape(name)}</h3>" if len(runs) > 1 else "" for name in names]
-            made = f'<div class="runs">{"".join(f"<div>{one}{part}</div>" for one, part in zip(head, parts, strict=True))}</div>'
+            of_runs = [attempt(lambda: make(run, source), title) for run, source in zip(runs, sources, strict=True)]  # noqa: B023
+            heads = [f"<h3>{html.escape(name)}</h3>" if len(runs) > 1 else "" for name in names]
+            made = f'<div class="runs">{"".join(f"<div>{one}{part}</div>" for one, part in zip(heads, of_runs, strict=True))}</div>'
         elif title == "Differences" and len(runs) < 2:
             continue
         else:

@@ -64,7 +64,7 @@ def _views(run: Results, times: list[float]) -> list[View]:
     states = [run.states.at(t) for t in times]
     views, unit = [], unit_names(run)
     if any(one.particles is not None and len(one.particles) for one in states):
-        views.append(View("particles", "speed" if "velocity" in states[0].particles else "", of="particles", times=times, title=" "))
+        views.append(View("particles", "speed" if states[0].particles is not None and "velocity" in states[0].particles else "", of="particles", times=times, title=" "))
     if not any(one.elements for one in states):
         return views
     walls_only = bool(views) and _are_walls(states)

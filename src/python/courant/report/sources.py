@@ -135,7 +135,8 @@ class Sources:
     """The files of a run, each opened once; `faults`: those that could not be read."""
 
     def __init__(self, run: Results) -> None:
-        self.run, self.faults = run, []
+        self.run = run
+        self.faults: list[str] = []
         self._ascii: dict[str, AsciiFile | None] = {}
         self.notes: dict[str, str] = {}
         self._found: dict[str, Found] = {}
@@ -259,13 +260,13 @@ class Sources:
             known = {q.label: made for q in kind.quantities if (made := _lines(q, get))}
             if kind.file == "elout":
                 known |= _points_of({AsciiKey(name, id, side): values for (name, side), values in mine.items()})
-            if (made := _whole(Entity(str(id), titles.get(str(id), ""), file.times, known))) is not None:
-                out.append(made)
+            if (entity := _whole(Entity(str(id), titles.get(str(id), ""), file.times, known))) is not None:
+                out.append(entity)
         return out
 
     def _of_csv(self) -> list[Entity]:
         """Gauges of a run that has no history.h5 yet: a table each."""
-        out = []
+        out: list[Entity] = []
         for file in sorted((self.run.folder / "gauges").glob("*.csv")):
             read = self._try(lambda file=file: _gauge_of(file), f"gauges/{file.name}")  # type: ignore[misc]
             out += [read] if isinstance(read, Entity) and _whole(read) is not None else []
@@ -274,12 +275,12 @@ class Sources:
     # binout
 
     def _of_binout(self, kind: Kind) -> list[Entity]:
-        file, out = self.binout, []
+        file, out = self.binout, list[Entity]()
         for folder in kind.binout:
             if not any(path.startswith(f"{folder}/") for path in file):
                 continue
             read = self._try(lambda folder=folder: self._of_folder(kind, folder), "binout0000")  # type: ignore[misc]
-            out += read or []  # type: ignore[operator]
+            out += read if isinstance(read, list) else []
         return out
 
     def _of_folder(self, kind: Kind, folder: str) -> list[Entity]:
@@ -309,8 +310,8 @@ class Sources:
                 tensor = np.stack([file.of(f"{folder}/{name}", id).reshape(len(t), -1) for name in names], axis=-1)
                 curves = [(f"point {k + 1}", mises(tensor[:, k])) for k in range(tensor.shape[1])]
                 known["von Mises stress"] = Lines("von Mises stress", "M/LT2", curves)
-            if (made := _whole(Entity(str(id), titles.get(id, ""), t, known))) is not None:
-                out.append(made)
+            if (entity := _whole(Entity(str(id), titles.get(id, ""), t, known))) is not None:
+                out.append(entity)
         return out
 
     def _binout_titles(self, folder: str) -> dict[int, str]:

@@ -1,6 +1,7 @@
 """Water with its box, walls and bodies, in a description that needs no cards."""
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -8,12 +9,14 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..key_tables import keys as keys_of_map
-from ..yaml_map import Node, is_list, is_scalar
+from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin import Basin, add_basin
 from .joints import joined_names
-from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface
+from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface, Vector
+from .node_reader import OF_PYTHON
 from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
+from .series import read_series
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
 from .solids import FREE, Solid
@@ -29,12 +32,14 @@ _WATER = keys_of_map(
     "pressure number",
 )
 _BOX = keys_of_map("box", "low vector!, high vector!, open list, motion @motion")
-_MOTION = keys_of_map("motion", "x text, y text, z text, waves @waves")
+_MOTION = keys_of_map("motion", "x text|list|@a curve, y text|list|@a curve, z text|list|@a curve, waves @waves")
 _OF_WALL = keys_of_map("a wall, besides its shape", "motion @motion")
 _OF_BODY = keys_of_map("a body, besides its shape", "density number, mass number, velocity list, hold any")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
 _FEW = 1000  # cells whose particles are counted
-MOST_MIRRORS = 12  # lines of a shape in the plane
+_LARGE = 50.0  # times the scene, above which a shape has other units
+_NAMES = re.compile(r"(?<![\w.])[A-Za-z_]\w*(?!\s*\(|\w)")  # that are no functions, nor exponents of numbers
+MOST_MIRRORS = 12  # lines of a shape in the plane, triangles of a body in space
 METHODS = ("contact", "mirrors", "mixed", "ghosts")
 
 
@@ -65,6 +70,7 @@ class BasinReader(ShapeReader):
             basin.gravity = self.number(gravity, "gravity") or 0.0
             if basin.gravity < 0:
                 self.error(gravity, "gravity: expected its size, >= 0; it acts downwards")
+        self._check_units(root, water, basin)
         basin.end = self.length(root, "end", "time")
         basin.output = self.length(root, "output", "time") if self.get(root, "output") is not None else basin.end / 100
         if (box := self.get(root, "box")) is not None:
@@ -94,6 +100,16 @@ class BasinReader(ShapeReader):
         else:
             add_basin(basin, model)
 
+    def _check_units(self, root: Node, water: Node, basin: Basin) -> None:
+        """Of density and gravity one is in other units where the other has its default."""
+        gravity, density = self.get(root, "gravity"), self.get(water, "density")
+        if gravity is not None and density is None and any(abs(basin.gravity / size - 1) < 0.02 for size in (981, 9810)):
+            self.diagnostics.warning(self.at(gravity), f"gravity {basin.gravity:g} is that of other units than metres, and the density that of kg and metres",
+                                     "density: 1.0e-9 in tonnes and mm, 1.0e-6 in kg and mm, 1 in g and cm")
+        elif density is not None and gravity is None and 0 < basin.density < 0.01:
+            self.diagnostics.warning(self.at(density), f"density {basin.density:g} is that of other units than kg and metres, and gravity {basin.gravity:g} that of metres",
+                                     "gravity: 9810 in mm and seconds, 0 for none")
+
     def read_water(self, node: Node) -> Basin:
         basin = Basin()
         if not self.is_map(node, "water: {spacing: 0.01, blocks: [{low: [0, 0], high: [1, 1]}]}", "water"):
@@ -119,7 +135,8 @@ class BasinReader(ShapeReader):
             basin.dim = self.dim = self.of_inlets
             return basin
         if bodies is None and (blocks is None or not is_list(blocks) or not blocks.value):
-            self.error(node if blocks is None else blocks, "water: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z")
+            self.error(node if blocks is None else blocks, "water: the scene has none: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z",
+                       "a run of bodies and parts alone is a deck: courant.DeckBuilder")
             return basin
         entries = blocks.value if blocks is not None and is_list(blocks) else []
         basin.water.lattices = [self.read_lattice(one, basin.spacing) for one in entries if self.is_map(one)]
@@ -143,12 +160,12 @@ class BasinReader(ShapeReader):
         low, low_dim = self.vector(node, "low")
         high, high_dim = self.vector(node, "high")
         basin.box = (low, high)
-        if basin.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
+        if self.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
             self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
         opened = self.get(node, "open")
-        if opened is not None and not is_list(opened):
+        if opened is not None and is_map(opened):
             self.error(opened, "open: expected a list of sides", "open: [top]")
-        for side in opened.value if opened is not None and is_list(opened) else ():
+        for side in () if opened is None or is_map(opened) else opened.value if is_list(opened) else [opened]:
             name = self.text(side)
             if name not in basin.sides:
                 self.error(side, f"open: '{name}' is no side of the box", f"its sides: {', '.join(basin.sides)}")
@@ -176,21 +193,47 @@ class BasinReader(ShapeReader):
                     continue
                 axis, made = piston.axis, piston.series
                 self.pistons.append(piston)
-            elif not is_scalar(value):
-                self.error(value, "motion: expected a formula of TIME")
+            elif (motion := self._curve(value, basin.end) if not is_scalar(value) else self._formula(value)) is None:
                 continue
             else:
-                try:
-                    made = substitute(value.value, self.variables)
-                except PlaceholderFault as fault:
-                    self.error(value, fault.message)
-                    continue
+                made = motion
             if axis in out and (key.value == "waves" or not isinstance(out[axis], str)):
                 self.error(value, f"motion: the waves and a formula both move the wall along {axis}", f"leave out the waves or '{axis}'")
             out[axis] = made
         if len(out) > 1 and any(piston.own_card for piston in self.pistons[before:]):
             self.error(entry, "motion: a flap, and a wave maker that absorbs, has no other motion", "leave out the formulas")
         return out
+
+    def _formula(self, node: Node) -> str | None:
+        """Of TIME. Functions are those of *DEFINE_CURVE_FUNCTION, which the program knows; names are checked here."""
+        example = "0.05 * sin(2 * PI * TIME / 1.2), or {file: motion.csv}"
+        if node.tag == OF_PYTHON:
+            self.error(node, f"motion: expected a formula of TIME, got {node.value}", example)
+            return None
+        try:
+            made = substitute(node.value, self.variables)
+        except PlaceholderFault as fault:
+            self.error(node, fault.message)
+            return None
+        odd = [name for name in _NAMES.findall(made) if name.upper() not in ("TIME", "PI")]
+        if odd:
+            self.error(node, f"motion: unknown name '{odd[0]}' in the formula '{made}'", f"names are TIME and PI, and of parameters ${{name}}: {example}")
+        elif made.count("(") != made.count(")"):
+            self.error(node, f"motion: as many '(' as ')' are needed in the formula '{made}'")
+        else:
+            return made
+        return None
+
+    def _curve(self, node: Node, end: float) -> np.ndarray | None:
+        """A displacement over time [L], which is kept where the curve ends before the run."""
+        rows = read_series(self, self.folder, node, "motion")
+        if rows is None:
+            return None
+        if abs(rows[0, 1]) > 1e-6 * np.abs(rows[:, 1]).max() or rows[0, 0] > 0:
+            self.error(node, f"motion: the curve begins with {rows[0, 1]:g} at {rows[0, 0]:g}: a displacement counts from the position at the start and begins "
+                       "with 0 at 0", "subtract the first value")
+            return None
+        return np.vstack([rows, [[2 * end, rows[-1, 1]]]]) if rows[-1, 0] < end else rows
 
     def read_solids(self, root: Node, basin: Basin) -> None:
         """Walls that are held or driven, and bodies that move freely."""
@@ -220,6 +263,11 @@ class BasinReader(ShapeReader):
         if basin.water.lattices and not basin.inlets and sum(np.prod(one.n, dtype=float) for one in basin.water.lattices) < _FEW \
                 and sum(len(positions(one, self.variables)) for one in basin.water.lattices) == 1:
             self.error(spacing, f"spacing: with {basin.spacing:g} the water is a single particle, which has no neighbours", "a tenth of the depth of the water or less")
+        for inlet in basin.inlets:
+            behind = sum(int(inlet.waits(positions(one, self.variables), basin.spacing, basin.end).sum()) for one in basin.water.lattices)
+            if behind:
+                self.diagnostics.error(inlet.where, f"an inlet inside of the water: {behind} particles are behind it, where those wait that enter",
+                                       "an inlet is a jet into air; of a channel, a block of moving water outside of the box is the inflow")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
@@ -236,9 +284,14 @@ class BasinReader(ShapeReader):
 
     def check_solids(self, basin: Basin) -> None:
         """Refuses what covers all the water, as a file in other units does, and bodies that begin in a wall of the box."""
+        scene = max((float(np.max(np.subtract(high, low))) for low, high in self._extents(basin)), default=0.0)
         for solid in basin.solids:
             low, high = np.array(solid.shape.low, float)[:basin.dim], np.array(solid.shape.high, float)[:basin.dim]
             name = solid.shape.name or "a solid"
+            longest = float(np.max(high - low))
+            if (large := longest > _LARGE * scene > 0) or longest < basin.spacing / 2:
+                self.diagnostics.warning(solid.where, f"'{name}' is {longest:g} long, " + (f"and the scene {scene:g}" if large else f"less than half of the spacing {basin.spacing:g}"),
+                                         "is it a file in millimetres? 'scale: 0.001' makes metres of them" if large else "is its 'scale' that of the file?")
             if solid.closed and self._covers(solid.shape, basin):
                 size = " x ".join(f"{length:g}" for length in high - low)
                 self.diagnostics.error(solid.where, f"'{name}', {size}, is solid and covers all the water", "of a tank, 'open: true' takes the surface alone; "
@@ -250,6 +303,11 @@ class BasinReader(ShapeReader):
                 if beyond:
                     self.diagnostics.error(solid.where, f"'{name}' reaches from {low[k]:g} to {high[k]:g} along {'xyz'[k]}, through a wall of the box from "
                                            f"{ends[0]:g} to {ends[1]:g}", "a body that begins in a wall is not held by it")
+
+    @staticmethod
+    def _extents(basin: Basin) -> list[tuple[Vector, Vector]]:
+        """Corners of the box, or of the blocks of water."""
+        return [basin.box] if basin.box else [(one.low, tuple(np.add(one.low, one.spacing * np.array(one.n)))) for one in basin.water.lattices]
 
     def _covers(self, shape: Shape, basin: Basin) -> bool:
         """Whether all particles would be inside of it, were it not there."""
@@ -293,6 +351,13 @@ class BasinReader(ShapeReader):
         asked = self.text(node) if node is not None else "auto"
         # mirrors of many faces take most of the time of a run
         shaped = any(not solid.free and (basin.dim == 3 or len(solid.shape.faces) > MOST_MIRRORS) for solid in basin.solids)
+        for solid in basin.solids if asked == "auto" and basin.dim == 3 else ():
+            faces = len(solid.shape.faces)
+            if solid.free and faces > MOST_MIRRORS:
+                solid.by_contact = shaped = True
+                self.diagnostics.warning(solid.where, f"'{solid.shape.name or 'a body'}' acts on the water by contact and floats one to three spacings too deep: "
+                                         f"a mirror of its {faces} faces takes more than all else of the run",
+                                         f"a box or a body of at most {MOST_MIRRORS} triangles is a mirror; wall_method: ghosts suits calm water and bodies without thin edges")
         basin.method = asked if asked != "auto" else "mixed" if shaped else "mirrors"
         if node is not None:
             if asked not in (*METHODS, "auto"):

@@ -32,7 +32,7 @@ def explain_basin(basin: Basin, model: Model) -> None:
     if basin.box or basin.solids:
         right = "beside mirrors pressure is right in all rows, where contact alone gives 1.39 of it in the lowest"
         cheap = "shells push particles back that come nearer than half a spacing; cheap, but the lowest row has 1.39 of its pressure"
-        dear = "; walls of other shapes act by contact, as mirrors of many faces take most of the time of a run; bodies are mirrors, as contact lets them sink too deep"
+        dear = "; walls of other shapes act by contact, as mirrors of many faces take most of the time of a run; bodies of few faces are mirrors, as contact lets them float too deep"
         if basin.dim == 3 and basin.mirrors and any(solid.free for solid in basin.solids):
             right += "; beside edges of bodies in space they take some 100 us per particle and step, ghosts some 3 us in calm water"
         behind = "fixed ghost particles continue the lattice of the water behind walls: right on walls of any slope, for walls that are dry on one side"
@@ -41,7 +41,7 @@ def explain_basin(basin: Basin, model: Model) -> None:
         elif basin.method == "mirrors" and has_oblique_walls(basin):
             right += "; beside oblique walls still water moves: wall_method: ghosts keeps it at rest, but lifts fast water off slopes"
         reason = {"mirrors": right, "contact": cheap, "mixed": right + dear, "ghosts": behind}[basin.method]
-        add({"mirrors": "walls are mirrors", "contact": "walls act by contact", "ghosts": "walls have ghost particles behind them", "mixed": "box and bodies are mirrors, other walls act by contact"}[basin.method], reason,
+        add({"mirrors": "walls are mirrors", "contact": "walls act by contact", "ghosts": "walls have ghost particles behind them", "mixed": "box and bodies are mirrors, other walls act by contact"}[basin.method] + "".join(f", '{solid.shape.name}', too" for solid in basin.solids if solid.by_contact), reason,
             (f"*COURANT_WALL_SUPPORT METHOD {2 if basin.method == 'ghosts' else 1}, " if basin.mirrors else "") + "*CONTACT_AUTOMATIC_NODES_TO_SURFACE")
     if basin.mirrors:
         pressure = basin.water.pressure

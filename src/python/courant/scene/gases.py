@@ -22,6 +22,7 @@ _EXAMPLE = "- {low: [0, 0], high: [0.5, 0.1], density: 1.2, pressure: 1.0e5}"
 _NOT_BESIDE = ("walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "damping")
 AIR = 1.4  # ratio of heat capacities
 _SOUND_STEPS = 0.5
+_LEAST_WIDTH = 6.0  # of the box between two planes of symmetry [spacings]
 
 # Monaghan's viscosity with both terms, for shocks; h varies with the density
 _CARDS = """\
@@ -140,7 +141,7 @@ def _planes(reader: SceneReader, root: Node, gases: list[Gas]) -> str:
         return ""
     sides = ("left", "right", "bottom", "top") if dim == 2 else ("left", "right", "front", "back", "bottom", "top")
     opened = reader.get(box, "open")
-    names = [reader.text(one) for one in opened.value] if opened is not None and is_list(opened) else []
+    names = [reader.text(one) for one in (opened.value if is_list(opened) else [opened])] if opened is not None else []
     for name in names:
         if name not in sides:
             reader.error(opened or box, f"open: '{name}' is no side of the box", f"its sides: {', '.join(sides)}")
@@ -151,6 +152,11 @@ def _planes(reader: SceneReader, root: Node, gases: list[Gas]) -> str:
                 if block.low[k] < low[k] - 1e-6 * block.spacing or top > high[k] + 1e-6 * block.spacing:
                     reader.error(box, f"'{gas.part.title}' reaches from {block.low[k]:g} to {top:g} along {'xyz'[k]}, "
                                  f"beyond the box from {low[k]:g} to {high[k]:g}")
+    spacing = gases[0].part.lattices[0].spacing if gases else 0.0
+    for k in range(dim):
+        if high[k] - low[k] < _LEAST_WIDTH * spacing * (1 - 1e-6) and not {sides[2 * k], sides[2 * k + 1]} & set(names):
+            reader.error(box, f"box: {high[k] - low[k]:g} along {'xyz'[k]} are {(high[k] - low[k]) / spacing:.3g} spacings: between planes of symmetry a gas "
+                         f"needs {_LEAST_WIDTH:g}, as its kernel reaches three and grows where it expands", f"{low[k] + _LEAST_WIDTH * spacing:g} as the upper end")
     rows = ""
     for number, side in enumerate(sides):
         axis, end = divmod(number, 2)

@@ -89,6 +89,8 @@ def _cards(reader: SceneReader, root: Node, node: Node, kind: str, model: Model)
         return [f",{_part(reader, root, value, model, kind)},3,{_numbers(about)}"]
     if kind == "point":
         body = reader.get(node, "with")
+        if reader.dim and is_list(value) and len(value.value) != reader.dim and 2 <= len(value.value) <= 3:
+            reader.error(value, f"point: expected {reader.dim} components, got {len(value.value)}")
         return [f",{_numbers(reader.vector(node, kind)[0])},{_part(reader, root, body, model, 'with') if body is not None else 0}"]
     points = _points(reader, value, kind)
     return [""] if not points else ["", ",".join(_numbers(one) for one in points[:2]), *(_numbers(one) for one in points[2:])]
@@ -104,6 +106,9 @@ def _points(reader: SceneReader, node: Node, kind: str) -> list[tuple[float, flo
     for one in node.value:
         if not is_list(one) or not 2 <= len(one.value) <= 3:
             reader.error(one, f"{kind}: expected [x, y] or [x, y, z]", example)
+            return []
+        if reader.dim and len(one.value) != reader.dim:
+            reader.error(one, f"{kind}: expected {reader.dim} components, got {len(one.value)}", example)
             return []
         values = [reader.number(part, kind) or 0.0 for part in one.value]
         out.append((values[0], values[1], values[2] if len(values) > 2 else 0.0))

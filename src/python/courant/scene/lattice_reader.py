@@ -66,7 +66,8 @@ class LatticeReader(ParameterReader):
                 self.error(node, f"the lattice is empty: its extent along {'xyz'[k]} is {shortest(extent)}")
                 return lattice
             if abs(cells - n) > 1e-6:
-                self.error(node, f"the extent {shortest(extent)} along {'xyz'[k]} is {cells:.9g} spacings, not a whole number")
+                self.error(node, f"the extent {shortest(extent)} along {'xyz'[k]} is {cells:.9g} spacings, not a whole number",
+                           f"{' or '.join(shortest(round(lattice.low[k] + n * lattice.spacing, 9)) for n in sorted({max(1, math.floor(cells)), math.ceil(cells)}))} as the upper end")
             total *= n
             if total > MOST_ENTITIES:
                 self.error(node, f"the lattice would have {total:.3g} particles or more; {MOST_ENTITIES:.0e} are the limit")

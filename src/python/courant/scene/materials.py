@@ -11,7 +11,7 @@ from ..yaml_map import Node, is_map
 from .placeholders import substitute
 
 if TYPE_CHECKING:
-    from .reader import SceneReader
+    from .basin_reader import BasinReader
 
 
 @dataclass
@@ -50,7 +50,7 @@ ${mid:10}${ro:10}${e:10}${pr:10}${sigy:10}${etan:10}       1.0
 """
 
 
-def read_material(reader: SceneReader, node: Node | None, owner: Node, water_density: float) -> Material | None:
+def read_material(reader: BasinReader, node: Node | None, owner: Node, water_density: float) -> Material | None:
     """Of an entry `owner`; None, with a message, where there is none."""
     if node is None:
         reader.error(owner, "'material' is missing", _EXAMPLE)
@@ -78,7 +78,7 @@ def read_material(reader: SceneReader, node: Node | None, owner: Node, water_den
     return replace(known, **given) if reader.diagnostics.errors == before else None
 
 
-def _named(reader: SceneReader, node: Node, water_density: float) -> Material | None:
+def _named(reader: BasinReader, node: Node, water_density: float) -> Material | None:
     name = reader.text(node)
     if name not in NAMED:
         reader.error(node, f"material: '{name}' is not known", f"{did_you_mean(name, NAMED)}known: {', '.join(NAMED)}; {_EXAMPLE}")

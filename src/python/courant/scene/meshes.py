@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
+from .groups import Cells
 from .shapes import Shape
 
 SOLIDS, SHELLS = "solids", "shells"
@@ -23,6 +23,7 @@ class Mesh:
     name: str = ""
     notes: list[str] = field(default_factory=list)
     name_of_kind: str = ""  # "box", "plate", "file": how it was given
+    groups: dict[str, np.ndarray] = field(default_factory=dict)  # numbers of the nodes of named groups
 
     @property
     def kind(self) -> str:
@@ -198,16 +199,18 @@ _OF_MESHIO = {"hexahedron": (0, 1, 2, 3, 4, 5, 6, 7), "wedge": (0, 1, 4, 3, 2, 2
 _FLAT = {"quad": (0, 1, 2, 3), "triangle": (0, 1, 2, 2)}
 
 
-def of_meshio(mesh: Any) -> Mesh | None:
-    """Its solids; where it has none its triangles and quadrangles. None where it has neither, or elements with nodes on their sides."""
-    points = np.column_stack([np.asarray(mesh.points, dtype=float), np.zeros((len(mesh.points), 3 - np.shape(mesh.points)[1]))])
+def of_cells(whole: Cells, group: str = "") -> Mesh | None:
+    """The solids of a mesh or of one of its groups; where it has none its triangles and quadrangles. None where it has neither, or elements with nodes
+    on their sides. Raises ShapeFault."""
+    mesh, groups = whole.of(group), whole.nodes()
     for table, kinds in ((_OF_MESHIO, ("tetra", "hexahedron", "wedge", "pyramid")), (_FLAT, ("triangle", "quad"))):
         if any(block.type.startswith(kinds) and block.type not in table for block in mesh.cells):
             return None
-        found = [np.asarray(block.data, dtype=int)[:, table[block.type]] for block in mesh.cells if block.type in table]
+        found = [block.data[:, table[block.type]] for block in mesh.cells if block.type in table]
         if found:
             used, numbers = np.unique(np.concatenate(found), return_inverse=True)
-            made = Mesh(points[used], numbers.reshape(-1, 8 if table is _OF_MESHIO else 4))
+            made = Mesh(mesh.points[used], numbers.reshape(-1, 8 if table is _OF_MESHIO else 4))
+            made.groups = {name: np.flatnonzero(np.isin(used, nodes)) for name, nodes in groups.items()}
             if made.kind == SOLIDS:
                 _turn(made)
             return made

@@ -15,6 +15,7 @@ from .model import LARGEST_ID, PlaceExpression, Variables, Vector
 from .placeholders import PlaceholderFault, substitute
 
 _WORD = re.compile(r"[A-Za-z0-9_.]+", re.ASCII)
+_NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf(inity)?)", re.IGNORECASE)
 PLACES = ("x", "y", "z")
 OF_PYTHON = "!mesh"  # the tag of what Python gave and YAML has no form for
 
@@ -104,7 +105,8 @@ class NodeReader:
         try:
             return evaluate(node.value, self.variables)
         except ExpressionFault as fault:
-            self.error(node, f"{what}: {fault.message}, got '{node.value}'")
+            odd = _NOT_FINITE.fullmatch(node.value.strip())
+            self.error(node, f"{what}: {'expected a finite number' if odd else fault.message}" + (f", got '{node.value}'" if odd or "got '" not in fault.message else ""))
             return None
 
     def id(self, node: Node, key: str, required: bool = False) -> int:

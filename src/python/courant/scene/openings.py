@@ -16,7 +16,7 @@ from .placeholders import PlaceholderFault, substitute
 if TYPE_CHECKING:
     from .basin import Basin
     from .model import Model
-    from .reader import SceneReader
+    from .basin_reader import BasinReader
 
 _OF_INLET = keys_of_map("an inlet", "at vector!, direction vector!, width number, radius number, sides list, speed number!, start number, end number")
 _OF_OUTLET = keys_of_map("an outlet", "side text!, level number")
@@ -39,6 +39,18 @@ class Inlet:
     end: float = 0.0  # 0: that of the run [T]
     where: Location = field(default_factory=Location)
 
+    def waits(self, x: np.ndarray, spacing: float, end: float) -> np.ndarray:
+        """Which points (n, 3) are behind the inlet, where water waits until it enters before `end` [T]. Shape (n,)."""
+        along = (x - self.at) @ self.direction
+        beside = x - self.at - along[:, None] * self.direction
+        if len(self.size) == 1:
+            within = np.linalg.norm(beside, axis=1) < self.size[0] + spacing / 4
+        else:
+            within = np.all([np.abs(beside @ axis) < size / 2 + spacing / 4 for axis, size in zip(across(self.direction), self.size)], axis=0)
+        length = self.speed * ((self.end or end) - self.start) if self.speed else np.inf
+        behind: np.ndarray = within & (along < 0) & (along > -length)
+        return behind
+
 
 @dataclass
 class Outlet:
@@ -47,7 +59,7 @@ class Outlet:
     where: Location = field(default_factory=Location)
 
 
-def read_openings(reader: SceneReader, root: Node, basin: Basin) -> None:
+def read_openings(reader: BasinReader, root: Node, basin: Basin) -> None:
     for key, example, read in (("inlets", _INLET, _read_inlet), ("outlets", _OUTLET, _read_outlet)):
         node = reader.get(root, key)
         if node is None:
@@ -60,7 +72,7 @@ def read_openings(reader: SceneReader, root: Node, basin: Basin) -> None:
                 read(reader, entry, basin)
 
 
-def _read_inlet(reader: SceneReader, node: Node, basin: Basin) -> None:
+def _read_inlet(reader: BasinReader, node: Node, basin: Basin) -> None:
     shapes = ("width",) if basin.dim == 2 else ("radius", "sides")
     reader.check_keys(node, "an inlet", [key for key in _OF_INLET if key in shapes or key not in ("width", "radius", "sides")])
     before = reader.diagnostics.errors
@@ -85,7 +97,7 @@ def _read_inlet(reader: SceneReader, node: Node, basin: Basin) -> None:
         basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, start, end, reader.at(node)))
 
 
-def check_inlets(reader: SceneReader, basin: Basin) -> None:
+def check_inlets(reader: BasinReader, basin: Basin) -> None:
     """Refuses inlets too near in front of a mirror: the water would be held by its own image."""
     for inlet in basin.inlets if basin.mirrors and basin.box else ():
         for k in range(basin.dim):
@@ -101,7 +113,7 @@ def check_inlets(reader: SceneReader, basin: Basin) -> None:
                                          f"at: [{', '.join(f'{v:.4g}' for v in there[: basin.dim])}], or wall_method: contact")
 
 
-def _size(reader: SceneReader, node: Node, key: str) -> tuple[float, ...]:
+def _size(reader: BasinReader, node: Node, key: str) -> tuple[float, ...]:
     if key != "sides":
         value = reader.length(node, key)
         return (value / 2 if key == "width" else value,)
@@ -112,7 +124,7 @@ def _size(reader: SceneReader, node: Node, key: str) -> tuple[float, ...]:
     return reader.length_of(entry.value[0], "sides"), reader.length_of(entry.value[1], "sides")
 
 
-def _speed(reader: SceneReader, node: Node) -> tuple[float, str]:
+def _speed(reader: BasinReader, node: Node) -> tuple[float, str]:
     """A number, or a formula of TIME."""
     entry = reader.get(node, "speed")
     if entry is not None and is_scalar(entry) and "TIME" in entry.value:
@@ -124,7 +136,7 @@ def _speed(reader: SceneReader, node: Node) -> tuple[float, str]:
     return reader.length(node, "speed", "speed, or a formula of TIME,"), ""
 
 
-def _read_outlet(reader: SceneReader, node: Node, basin: Basin) -> None:
+def _read_outlet(reader: BasinReader, node: Node, basin: Basin) -> None:
     reader.check_keys(node, "an outlet", _OF_OUTLET)
     entry = reader.get(node, "side")
     sides = [side for side in basin.sides if side != "top"]

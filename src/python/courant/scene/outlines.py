@@ -59,31 +59,54 @@ def _joined(lines: list[tuple[np.ndarray, bool]]) -> list[tuple[np.ndarray, bool
     return out
 
 
-def _csv(text: str) -> list[tuple[np.ndarray, bool]]:
-    """Two numbers a line, with a comma, a semicolon or blanks between; a heading and comments are left out. A line of three points or more is closed."""
-    rows = []
+def two_columns(text: str) -> np.ndarray:
+    """Two numbers a line, with a comma, a semicolon or blanks between, and with a semicolon also decimal commas; a third is 0, as the z of an outline. A
+    heading and comments are left out. Shape (n, 2). Raises ValueError."""
+    rows: list[list[float]] = []
     for number, line in enumerate(text.splitlines(), 1):
-        words = [word for word in re.split(r"[,;\s]+", line.strip()) if word]
-        if not words or line.lstrip().startswith(("#", "$")):
+        words = re.split(r"[;\s]+" if ";" in line else r"[,\s]+", line.strip().strip(",;"))
+        if not words[0] or line.lstrip().startswith(("#", "$")):
             continue
         try:
-            rows.append([float(word) for word in words[:2]])
+            values = [float(word.replace(",", ".") if ";" in line else word) for word in words]
         except ValueError:
-            if rows:
-                raise ValueError(f"line {number}: two numbers are expected, got '{line.strip()[:40]}'") from None
-            continue
-        if len(words) < 2:
+            if not rows:
+                continue
+            values = []
+        if not (len(values) == 2 or (len(values) == 3 and values[2] == 0)):
             raise ValueError(f"line {number}: two numbers are expected, got '{line.strip()[:40]}'")
-    return [(np.array(rows), len(rows) > 2)] if rows else []
+        rows.append(values[:2])
+    return np.array(rows).reshape(-1, 2)
+
+
+def _csv(text: str) -> list[tuple[np.ndarray, bool]]:
+    """A line of three points or more is closed."""
+    rows = two_columns(text)
+    return [(rows, len(rows) > 2)]
+
+
+def _bulged(vertices: list[list[float]], closed: bool) -> np.ndarray:
+    """A polyline of x, y and bulge, the tangent of a quarter of the angle of the arc to the next vertex."""
+    out = []
+    for k, (x, y, bulge) in enumerate(vertices):
+        out.append(np.array([x, y]))
+        if bulge and (closed or k + 1 < len(vertices)):
+            begin, end = out[-1], np.array(vertices[(k + 1) % len(vertices)][:2])
+            centre = (begin + end) / 2 + np.array([begin[1] - end[1], end[0] - begin[0]]) * (1 - bulge**2) / (4 * bulge)
+            n = int(np.ceil(abs(np.arctan(bulge)) * 8 * _ARC / np.pi)) + 1
+            for angle in 4 * np.arctan(bulge) * np.arange(1, n) / n:
+                turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+                out.append(centre + turn @ (begin - centre))
+    return np.array(out)
 
 
 def _dxf(text: str) -> list[tuple[np.ndarray, bool]]:
-    """LINE, LWPOLYLINE, POLYLINE, CIRCLE and ARC of a DXF in text."""
+    """LINE, LWPOLYLINE, POLYLINE, CIRCLE and ARC of a DXF in text; other curves are refused."""
     raw = text.splitlines()
     pairs = [(raw[k].strip(), raw[k + 1].strip()) for k in range(0, len(raw) - 1, 2)]
     out: list[tuple[np.ndarray, bool]] = []
-    vertices: list[tuple[float, float]] | None = None
-    closed = False
+    vertices: list[list[float]] | None = None
+    closed, section = False, ""
     at = 0
     while at < len(pairs):
         end = next((k for k in range(at + 1, len(pairs)) if pairs[k][0] == "0"), len(pairs))
@@ -93,16 +116,28 @@ def _dxf(text: str) -> list[tuple[np.ndarray, bool]]:
             if _NUMBER.fullmatch(value):
                 fields.setdefault(key, []).append(float(value))
         x, y, flags = fields.get("10", []), fields.get("20", []), int(fields.get("70", [0])[0])
-        if code == "0" and name == "LINE":
+        if code == "0" and name == "SECTION":
+            section = next((value for key, value in pairs[at + 1 : end] if key == "2"), "")
+        elif section == "BLOCKS":  # drawn where a block is inserted
+            pass
+        elif code == "0" and name in ("SPLINE", "ELLIPSE", "INSERT", "HELIX"):
+            raise ValueError(f"a {name} is not read here: turn it into polylines in the program that made the file")
+        elif code == "0" and name == "LINE":
             out.append((np.array([[x[0], y[0]], [fields["11"][0], fields["21"][0]]]), False))
         elif code == "0" and name == "LWPOLYLINE":
-            out.append((np.column_stack([x, y]), bool(flags & 1)))
+            corners: list[list[float]] = []
+            for key, value in pairs[at + 1 : end]:
+                if key == "10":
+                    corners.append([float(value), 0.0, 0.0])
+                elif key in ("20", "42") and corners:
+                    corners[-1][1 if key == "20" else 2] = float(value)
+            out.append((_bulged(corners, bool(flags & 1)), bool(flags & 1)))
         elif code == "0" and name == "POLYLINE":
             vertices, closed = [], bool(flags & 1)
         elif code == "0" and name == "VERTEX" and vertices is not None:
-            vertices.append((x[0], y[0]))
+            vertices.append([x[0], y[0], fields.get("42", [0.0])[0]])
         elif code == "0" and name == "SEQEND" and vertices is not None:
-            out.append((np.array(vertices), closed))
+            out.append((_bulged(vertices, closed), closed))
             vertices = None
         elif code == "0" and name in ("CIRCLE", "ARC"):
             begin, stop = (np.radians(fields.get(key, [0.0])[0]) for key in ("50", "51")) if name == "ARC" else (0.0, 2 * np.pi)
@@ -114,7 +149,7 @@ def _dxf(text: str) -> list[tuple[np.ndarray, bool]]:
 
 
 def _svg(text: str) -> list[tuple[np.ndarray, bool]]:
-    """polygon, polyline, rect, line, circle and path without transformations, y upwards as in a scene."""
+    """polygon, polyline, rect, line, circle, ellipse and path without transformations, y upwards as in a scene."""
     out: list[tuple[np.ndarray, bool]] = []
     for element in ElementTree.fromstring(text).iter():
         kind = element.tag.rpartition("}")[2]
@@ -132,9 +167,10 @@ def _svg(text: str) -> list[tuple[np.ndarray, bool]]:
             out.append((np.array([[x, y], [x + w, y], [x + w, y + h], [x, y + h]]), True))
         elif kind == "line":
             out.append((np.array([[number("x1"), number("y1")], [number("x2"), number("y2")]]), False))
-        elif kind == "circle":
+        elif kind in ("circle", "ellipse"):
             angle = 2 * np.pi * np.arange(4 * _ARC) / (4 * _ARC)
-            out.append((np.column_stack([number("cx") + number("r") * np.cos(angle), number("cy") + number("r") * np.sin(angle)]), True))
+            radii = ("r", "r") if kind == "circle" else ("rx", "ry")
+            out.append((np.column_stack([number("cx") + number(radii[0]) * np.cos(angle), number("cy") + number(radii[1]) * np.sin(angle)]), True))
         elif kind == "path":
             out += _path(element.get("d", ""))
     return [(xy * np.array([1.0, -1.0]), closed) for xy, closed in out]

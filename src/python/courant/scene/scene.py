@@ -149,10 +149,10 @@ class Scene:
         self._append(("gases",), {"low": low, "high": high, "density": density, "pressure": pressure, **given}, _caller())
         return self
 
-    def box(self, low: Point, high: Point, open: Sequence[str] = (), motion: Mapping[str, str] | None = None) -> Scene:  # noqa: A002
-        """Fixed walls around a box [L] but for its `open` sides: left, right, bottom, top, in space front and back; `motion`: its displacements by axis,
-        formulas of TIME [L]."""
-        entry = {"low": low, "high": high} | ({"open": list(open)} if open else {}) | ({"motion": motion} if motion else {})
+    def box(self, low: Point, high: Point, open: str | Sequence[str] = (), motion: Mapping[str, Any] | None = None) -> Scene:  # noqa: A002
+        """Fixed walls around a box [L] but for its `open` sides: left, right, bottom, top, in space front and back; `motion`: its displacements by axis
+        [L], formulas of TIME, or times and values (n, 2), or {"file": "motion.csv"}."""
+        entry = {"low": low, "high": high} | ({"open": [open] if isinstance(open, str) else list(open)} if open else {}) | ({"motion": motion} if motion else {})
         self._set(self._root, "box", entry, _caller())
         return self
 
@@ -160,7 +160,8 @@ class Scene:
         """A rigid wall: the surface of a file (STL, OBJ, PLY, meshes of Gmsh and others; CSV, DXF, SVG in the plane), a mesh of PyVista, VTK, meshio or
         trimesh, (points, triangles), or one of `box={"low", "high"}`, `cylinder={"base", "top", "radius"}`, `sphere={"centre", "radius"}`,
         `circle`, `line=[[x, y], ...]`, `plate={"origin", "edge1", "edge2"}`. `scale`, `turn` (degrees) and `move` bring it to its position, `close` fills
-        holes, `open` takes a surface with holes as thin, `ground` makes all below it solid, `motion` drives it."""
+        holes, `open` takes a surface with holes as thin, `ground` makes all below it solid, `group` takes one group of a mesh, `motion` as of `box`
+        drives it."""
         self._append(("walls",), self._shape(shape, keys), _caller())
         return self
 
@@ -174,8 +175,8 @@ class Scene:
         """A part that deforms: solids of `box={"low", "high"}`, `cylinder={"base", "top", "radius"}`, `sphere={"centre", "radius"}`, or of a file or mesh of
         meshio (Gmsh, VTK, Abaqus and others); shells with a `thickness` [L] of `plate={"origin", "edge1", "edge2"}`, in the plane `line=[[x, y], ...]`, of a
         cylinder as a tube, or of a mesh of triangles and quadrangles. `material`: a name, such as "steel", or {"density", "young", "poisson", "yield",
-        "tangent"} [M/L3, M/LT2]; `size` of its elements [L]; `fix`: nodes that are held, by a side ("bottom") or a condition ("y < 0.01"), or that go with
-        the wall or body `to`; `track=[point, ...]`: nodes whose motion is written; `velocity` [L/T], `scale`, `turn`, `move`, `title`."""
+        "tangent"} [M/L3, M/LT2]; `size` of its elements [L]; `fix`: nodes that are held, by a side ("bottom"), a group of the mesh or a condition ("y < 0.01"), or that
+        go with the wall or body `to`; `group` takes one group of a mesh alone; `track=[point, ...]`: nodes whose motion is written; `velocity` [L/T], `scale`, `turn`, `move`, `title`."""
         self._append(("structures",), self._shape(shape, keys), _caller())
         return self
 

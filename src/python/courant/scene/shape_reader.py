@@ -18,7 +18,7 @@ from .shapes import Shape
 from .surfaces import ShapeFault, read_shape, shape_of, sound
 
 KINDS = keys_of_map("a kind of shape", "file text, mesh any, box @a box, cylinder @a cylinder, sphere @a sphere, circle any, line any, plate @a shape's plate")
-SHAPE = (*KINDS, *keys_of_map("of every shape", "title text, scale number|list, turn any, move list, close flag, open flag, ground flag"))
+SHAPE = (*KINDS, *keys_of_map("of every shape", "title text, group text, scale number|list, turn any, move list, close flag, open flag, ground flag"))
 BOX = keys_of_map("a box", "low vector!, high vector!")
 CYLINDER = keys_of_map("a cylinder", "base vector!, top vector!, radius number!")
 SPHERE = keys_of_map("a sphere", "centre vector!, radius number!")
@@ -72,10 +72,14 @@ class ShapeReader(LatticeReader):
     def _made(self, node: Node, kind: str, spacing: float) -> Shape | None:
         entry = self.get(node, kind)
         assert entry is not None
+        named = self.get(node, "group")
+        group = self.text(named) if named is not None else ""
         if kind == "mesh":
-            return shape_of(entry.data) if isinstance(entry, DataNode) else self._refuse(entry, "mesh: given in Python alone", "file: names a file")
+            return shape_of(entry.data, group) if isinstance(entry, DataNode) else self._refuse(entry, "mesh: given in Python alone", "file: names a file")
         if kind == "file":
-            return read_shape(Path(self.folder, self.text(entry)))
+            return read_shape(Path(self.folder, self.text(entry)), group)
+        if group:
+            return self._refuse(self.get(node, "group") or node, "group: of a 'file' or a mesh")
         if kind == "line":
             return self._line(entry)
         if not is_map(entry):

@@ -8,6 +8,14 @@ import numpy as np
 _SHIFTS = ((1.234567e-7, 2.345678e-7), (-3.1415926e-7, 1.4142135e-7), (2.7182818e-7, -1.7320508e-7))  # of rays, so that they meet no edge, of the size
 
 
+class ShapeFault(Exception):
+    """Why there is no shape, and what to do."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message, self.hint = message, hint
+
+
 @dataclass
 class Shape:
     """`points`: shape (n, 3) [L]; `faces`: numbers of the points of each face, three in space, two in the plane; `dim`: 3 or 2."""
@@ -308,8 +316,24 @@ def holes(shape: Shape, edges: np.ndarray) -> list[tuple[np.ndarray, float, int]
     return sorted(out, key=lambda hole: -hole[1])
 
 
+def _is_within(x: np.ndarray, others: Shape) -> bool:
+    """Whether the points (n, 3) of a closed surface are within others. Raises ShapeFault where some clearly are and some are not."""
+    inside = others.contains(x)
+    if inside.any() and not inside.all():
+        size = 1e-4 * float(np.max(others.high - others.low))
+        deep = inside.copy()
+        for axis in range(3):
+            for sign in (-size, size):
+                deep &= others.contains(x + sign * np.eye(3)[axis])
+        if deep.any() and not others.contains(x, size).all():
+            at = x[np.argmax(deep)]
+            raise ShapeFault(f"closed surfaces overlap at x = {at[0]:.4g}, y = {at[1]:.4g}, z = {at[2]:.4g}: inside and outside are not clear there",
+                             "unite overlapping bodies in the program that made the file, or give each as a shape of its own")
+    return bool(inside[0])
+
+
 def oriented(shape: Shape) -> Shape:
-    """A closed surface with all normals outwards: faces turn like their neighbours; closed parts within others are cavities."""
+    """A closed surface with all normals outwards: faces turn like their neighbours; closed parts within others are cavities. Raises ShapeFault."""
     if shape.dim == 2:
         return shape
     faces = shape.faces.copy()
@@ -339,8 +363,7 @@ def oriented(shape: Shape) -> Shape:
     faces[turn] = faces[turn][:, ::-1]
     for one in np.unique(body):
         part = body == one
-        others = Shape(shape.points, faces[~part], 3) if not part.all() else None
-        cavity = others is not None and bool(others.contains(shape.points[faces[part][0, :1]])[0])
+        cavity = not part.all() and _is_within(shape.points[np.unique(faces[part])], Shape(shape.points, faces[~part], 3))
         if (Shape(shape.points, faces[part], 3).volume() < 0) != cavity:
             faces[part] = faces[part][:, ::-1]
     turned = int(np.any(faces != shape.faces, axis=1).sum())

@@ -36,10 +36,11 @@ class Solid:
     where: Location = field(default_factory=Location)
     part: int = 0
     piston: Piston | None = None  # that makes waves
+    by_contact: bool = False  # it has too many faces to be a mirror
 
     def mirrors(self, method: str) -> bool:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
-        return method in ("mirrors", "ghosts") or (method == "mixed" and self.free)
+        return method in ("mirrors", "ghosts") or (method == "mixed" and self.free and not self.by_contact)
 
 
 _RIGID = """\

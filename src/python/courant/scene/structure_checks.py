@@ -20,13 +20,13 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
     free_of = [np.delete(one.mesh.points, one.fixed, axis=0) for one in basin.structures]
     for k, (one, free) in enumerate(zip(basin.structures, free_of)):
         _check_box(one, free, basin, depth, diagnostics)
-        for other in basin.solids:
-            if not other.closed:
+        for rigid in basin.solids:
+            if not rigid.closed:
                 continue
-            name = f"'{other.shape.name}'" if other.shape.name else "a wall or body"
-            found = _inside(other.shape, free, depth)
+            name = f"'{rigid.shape.name}'" if rigid.shape.name else "a wall or body"
+            found = _inside(rigid.shape, free, depth)
             if not len(found) and id(one) in solid:
-                found = _inside(solid[id(one)], other.shape.points, depth)
+                found = _inside(solid[id(one)], rigid.shape.points, depth)
             _report(one, found, name, dim, diagnostics)
         for other, free_of_other in zip(basin.structures[:k], free_of):
             found = _inside(solid[id(other)], free, depth) if id(other) in solid else free[:0]
@@ -36,11 +36,23 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
 
 
 def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> None:
-    """Refuses bodies that overlap, unless both have joints: they may be parts of one thing."""
+    """Refuses bodies that overlap each other or, in space, where they touch, closed walls and ground, unless both have joints: they may be parts of one
+    thing."""
     titles = basin.rigid_parts()
     bodies = [solid for solid in basin.solids if solid.free]
     linked = [bool({solid.shape.name, str(solid.part)} & joined) for solid in bodies]
+    walls = [solid for solid in basin.solids if not solid.free] if basin.dim == 3 else []
     for k, one in enumerate(bodies):
+        for wall in walls:
+            name = titles[wall.part]
+            if (linked[k] and {name, str(wall.part)} & joined) or {"x", "y", "z"} <= one.hold:
+                continue
+            found = _inside(one.shape, _points_on(wall.shape), _DEPTH * basin.spacing)[:1]
+            at = found[0] if len(found) else _common_point(one.shape, wall.shape, _DEPTH * basin.spacing) if wall.closed or wall.shape.ground else None
+            if at is None:
+                continue
+            diagnostics.error(one.where, f"'{titles[one.part]}' begins inside of the wall '{name}' or across it, for example at ({', '.join(f'{v:.4g}' for v in at)})",
+                              "move it, or join it to the wall by a joint")
         for other, has_joint in zip(bodies[:k], linked):
             if (has_joint and linked[k]) or (at := _common_point(one.shape, other.shape, _DEPTH * basin.spacing)) is None:
                 continue
@@ -49,10 +61,19 @@ def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> No
                               "move one of them, or join them by a joint" + (": bodies of the plane do not touch each other" if basin.dim == 2 else ""))
 
 
+def _points_on(shape: Shape) -> np.ndarray:
+    """Points inside of the faces of a shape in space (n, 3) [L]."""
+    weights = np.array([(i + 1, j + 1, 7 - i - j) for i in range(7) for j in range(7 - i)]) / 9
+    points: np.ndarray = np.einsum("kc,fcd->fkd", weights, shape.points[shape.faces]).reshape(-1, 3)
+    return points
+
+
 def _common_point(one: Shape, other: Shape, depth: float) -> np.ndarray | None:
     """A point inside of both shapes, of a lattice over what their boxes have in common; None where that is thinner than `depth` [L]."""
     dim = one.dim
     low, high = np.maximum(one.low, other.low)[:dim], np.minimum(one.high, other.high)[:dim]
+    if other.ground:
+        low[-1] = one.low[dim - 1]
     if not np.all(high - low > depth):
         return None
     n = 64 if dim == 2 else 16

@@ -11,6 +11,7 @@ from ..key_tables import keys as keys_of_map
 from ..optional import MissingModule, module
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from . import meshes
+from .groups import cells_of
 from .materials import read_material
 from .meshes import SOLIDS, Mesh
 from .part_names import named_part
@@ -21,14 +22,14 @@ from .volume_mesh import tetrahedra
 
 if TYPE_CHECKING:
     from .basin import Basin
-    from .reader import SceneReader
+    from .basin_reader import BasinReader
 
 _KINDS = keys_of_map("a kind of structure", "box @a box, cylinder @a cylinder, sphere @a sphere, plate any, line any, file text, mesh any")
 _KEYS = (
     *_KINDS,
     *keys_of_map(
         "of every structure",
-        "material text|@a material!, thickness number, size number|list, fix any, to any, track any, velocity list, title text, scale number|list, turn any, "
+        "material text|@a material!, thickness number, size number|list, fix any, to any, track any, velocity list, title text, group text, scale number|list, turn any, "
         "move list, close flag",
     ),
 )
@@ -36,7 +37,7 @@ _EXAMPLE = "- {box: {low: [0.6, 0], high: [0.612, 0.08]}, material: rubber, fix:
 _ENDS = {"left": (0, 0), "right": (0, 1), "front": (1, 0), "back": (1, 1), "bottom": (2, 0), "top": (2, 1)}
 
 
-def read_structures(reader: SceneReader, root: Node, basin: Basin) -> None:
+def read_structures(reader: BasinReader, root: Node, basin: Basin) -> None:
     node = reader.get(root, "structures")
     if node is None:
         return
@@ -50,7 +51,7 @@ def read_structures(reader: SceneReader, root: Node, basin: Basin) -> None:
             reader.add_entities(entry, len(made.mesh.cells))
 
 
-def _read_one(reader: SceneReader, node: Node, basin: Basin) -> Structure | None:
+def _read_one(reader: BasinReader, node: Node, basin: Basin) -> Structure | None:
     reader.check_keys(node, "a structure", _KEYS)
     before = reader.diagnostics.errors
     given = [kind for kind in _KINDS if reader.get(node, kind) is not None]
@@ -78,7 +79,7 @@ def _read_one(reader: SceneReader, node: Node, basin: Basin) -> Structure | None
     return made if reader.diagnostics.errors == before else None
 
 
-def _sizes(reader: SceneReader, node: Node, usual: np.ndarray) -> np.ndarray:
+def _sizes(reader: BasinReader, node: Node, usual: np.ndarray) -> np.ndarray:
     """Largest sides of elements along each axis [L]: one number, one for each axis, or what is usual."""
     entry = reader.get(node, "size")
     if entry is None:
@@ -93,7 +94,7 @@ def _sizes(reader: SceneReader, node: Node, usual: np.ndarray) -> np.ndarray:
     return np.full(3, value) if value > 0 else usual
 
 
-def _mesh(reader: SceneReader, node: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+def _mesh(reader: BasinReader, node: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
     entry = reader.get(node, kind)
     assert entry is not None
     made = _of_file(reader, node, entry, kind, basin, thickness) if kind in ("file", "mesh") else _made(reader, node, entry, kind, basin, thickness)
@@ -105,7 +106,7 @@ def _mesh(reader: SceneReader, node: Node, kind: str, basin: Basin, thickness: f
     return made
 
 
-def _made(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+def _made(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
     """A mesh made here."""
     dx, flat = basin.spacing, basin.dim == 2
     if kind == "line":
@@ -147,7 +148,7 @@ def _made(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin,
     return meshes.tube(points[0], points[1], radius, size) if thickness else meshes.cylinder(points[0], points[1], radius, size)
 
 
-def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
+def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
     """Elements of a mesh: Gmsh, VTK, Abaqus and others by meshio; of a surface without a thickness, which Gmsh fills."""
     hint = "Gmsh and others make a volume mesh (.msh, .vtu, .inp) of a surface; of its triangles, with a thickness, shells are made"
     try:
@@ -169,7 +170,11 @@ def _of_file(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Bas
         return reader._refuse(entry, f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
     except (Exception, SystemExit) as fault:  # libraries raise exceptions of many kinds
         return reader._refuse(entry, f"the mesh cannot be read: {' '.join(str(fault).split())[:200]}", hint)  # type: ignore[no-any-return]
-    made = meshes.of_meshio(found)
+    named = reader.get(node, "group")
+    try:
+        made = meshes.of_cells(cells_of(found), reader.text(named) if named is not None else "")
+    except ShapeFault as fault:
+        return reader._refuse(named or entry, fault.message, fault.hint)  # type: ignore[no-any-return]
     if made is None:
         kinds = ", ".join(sorted({block.type for block in found.cells})) or "none"
         return reader._refuse(entry, f"a structure: expected elements of first order, got {kinds}", hint)  # type: ignore[no-any-return]
@@ -188,14 +193,14 @@ def _note_tetrahedra(made: Mesh) -> None:
 _SURFACES = (".stl", ".obj", ".ply", ".vtp")
 
 
-def _is_surface(entry: Node, kind: str, reader: SceneReader) -> bool:
+def _is_surface(entry: Node, kind: str, reader: BasinReader) -> bool:
     """A file of triangles, or a mesh of PyVista, VTK or trimesh."""
     if kind == "file":
         return Path(reader.text(entry)).suffix.lower() in _SURFACES
     return isinstance(entry, DataNode) and not (hasattr(entry.data, "cells") and hasattr(entry.data, "points") and not hasattr(entry.data, "IsA"))
 
 
-def _filled(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basin) -> Mesh:
+def _filled(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Basin) -> Mesh:
     """Tetrahedra within a closed surface, in the scene's size. Raises ShapeFault, MissingModule."""
     raw = shape_of(entry.data) if isinstance(entry, DataNode) else read_shape(Path(reader.folder, reader.text(entry)))
     shape = sound(raw, closed=True, close=reader.flag(node, "close", False))
@@ -211,9 +216,11 @@ def _filled(reader: SceneReader, node: Node, entry: Node, kind: str, basin: Basi
     return made
 
 
-def _nodes_where(reader: SceneReader, node: Node, mesh: Mesh, dim: int) -> np.ndarray:
-    """Of a side of the mesh, or where an expression of x, y, z is > 0; which, (n,) of bool."""
+def _nodes_where(reader: BasinReader, node: Node, mesh: Mesh, dim: int) -> np.ndarray:
+    """Of a named group or a side of the mesh, or where an expression of x, y, z is > 0; which, (n,) of bool."""
     name = reader.text(node)
+    if name in mesh.groups:
+        return np.isin(np.arange(len(mesh.points)), mesh.groups[name])
     ends = {"left": (0, 0), "right": (0, 1), "bottom": (1, 0), "top": (1, 1)} if dim == 2 else _ENDS
     if name in ends:
         axis, end = ends[name]
@@ -221,12 +228,12 @@ def _nodes_where(reader: SceneReader, node: Node, mesh: Mesh, dim: int) -> np.nd
         return np.abs(mesh.points[:, axis] - limit) <= 1e-6 * float(np.max(mesh.high - mesh.low))  # type: ignore[no-any-return]
     formula = Formula(node.value, ("x", "y", "z"), reader.variables)
     if not formula.ok:
-        reader.error(node, f"fix: {formula.error}", f"a side, {', '.join(ends)}, or a condition: y < 0.01")
+        reader.error(node, f"fix: {formula.error}", f"a side, {', '.join(ends)}{''.join(f', a group, {one}' for one in mesh.groups)}, or a condition: y < 0.01")
         return np.ones(len(mesh.points), dtype=bool)
     return np.asarray(formula.over(dict(zip("xyz", mesh.points.T)), len(mesh.points)) > 0)
 
 
-def _fix(reader: SceneReader, node: Node, made: Structure, basin: Basin) -> None:
+def _fix(reader: BasinReader, node: Node, made: Structure, basin: Basin) -> None:
     entry, to = reader.get(node, "fix"), reader.get(node, "to")
     if to is not None and entry is None:
         reader.error(to, "'to' goes with 'fix'", "fix: bottom, to: hull")
@@ -251,7 +258,7 @@ def _fix(reader: SceneReader, node: Node, made: Structure, basin: Basin) -> None
         made.to = number or 0
 
 
-def _track(reader: SceneReader, node: Node, made: Structure) -> None:
+def _track(reader: BasinReader, node: Node, made: Structure) -> None:
     """Nodes nearest to points."""
     entry = reader.get(node, "track")
     if entry is None:

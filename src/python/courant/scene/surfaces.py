@@ -11,36 +11,31 @@ import numpy as np
 
 from ..files import note_input
 from ..optional import MissingModule, module
+from .groups import Cells, cells_of, read_obj
 from .outlines import OUTLINES, read_outline
-from .shapes import Shape, faulty_edges, holes, merged, oriented, polyline
+from .shapes import Shape, ShapeFault, faulty_edges, holes, merged, oriented, polyline
 
-_VTK = {".stl": ("vtkIOGeometry", "vtkSTLReader"), ".obj": ("vtkIOGeometry", "vtkOBJReader"), ".ply": ("vtkIOPLY", "vtkPLYReader"),
+_VTK = {".stl": ("vtkIOGeometry", "vtkSTLReader"), ".ply": ("vtkIOPLY", "vtkPLYReader"),
         ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader")}
 _MESHES = (".msh", ".vtk", ".vtu", ".inp", ".med", ".off", ".bdf", ".nas", ".unv")
-KNOWN = (*_VTK, *_MESHES, *OUTLINES)
+KNOWN = (*_VTK, ".obj", *_MESHES, *OUTLINES)
 _TOLERANCE = 1e-6  # of the size, within which vertices are the same
 
 
-class ShapeFault(Exception):
-    """Why there is no shape, and what to do."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        super().__init__(message)
-        self.message, self.hint = message, hint
-
-
-def read_shape(path: Path) -> Shape:
-    """The surface or polyline of a file, as it is. Raises ShapeFault."""
+def read_shape(path: Path, group: str = "") -> Shape:
+    """The surface or polyline of a file, or of one of its groups, as it is. Raises ShapeFault."""
     end = path.suffix.lower()
     if end not in KNOWN:
         raise ShapeFault(f"'{path}': files that end with '{end}' are not read here", f"known: {', '.join(KNOWN)}")
     if not os.path.isfile(path):
         raise ShapeFault(f"'{path}' is not there", "paths of a scene begin at its folder")
+    if group and (end in OUTLINES or end in _VTK):
+        raise ShapeFault(f"group: files that end with '{end}' have none", "OBJ, and meshes of Gmsh, Abaqus and others, have groups")
     note_input(path)
     try:
         if end in OUTLINES:
             return read_outline(path)
-        shape = _by_vtk(path, *_VTK[end]) if end in _VTK else shape_of(module("meshio").read(path))
+        shape = _by_vtk(path, *_VTK[end]) if end in _VTK else _of_cells((read_obj(path) if end == ".obj" else cells_of(module("meshio").read(path))).of(group))
     except MissingModule as fault:
         raise ShapeFault(str(fault)) from None
     except ShapeFault:
@@ -85,14 +80,17 @@ def _arrays(data: Any) -> Shape:
     return Shape(np.array(to_numpy(points.GetData()), dtype=float), np.array(faces, dtype=int), 3)
 
 
-def shape_of(thing: Any) -> Shape:
-    """The surface of a mesh of PyVista, VTK, meshio or trimesh, of (points, triangles), or of points (n, 2) of a closed polyline. Raises ShapeFault."""
+def shape_of(thing: Any, group: str = "") -> Shape:
+    """The surface of a mesh of PyVista, VTK, meshio or trimesh, of (points, triangles), or of points (n, 2) of a closed polyline; of a mesh of meshio
+    also that of one of its groups. Raises ShapeFault."""
+    if group and not (hasattr(thing, "points") and hasattr(thing, "cells") and not hasattr(thing, "IsA")):
+        raise ShapeFault(f"group: a {type(thing).__name__} has none", "meshes of meshio have groups")
     if hasattr(thing, "IsA"):
         return _of_vtk(thing)
     if hasattr(thing, "vertices") and hasattr(thing, "faces"):
         return Shape(np.asarray(thing.vertices, dtype=float), np.asarray(thing.faces, dtype=int), 3)
     if hasattr(thing, "points") and hasattr(thing, "cells"):
-        return _of_meshio(thing)
+        return _of_cells(cells_of(thing).of(group))
     if isinstance(thing, tuple) and len(thing) == 2 and np.ndim(thing[0]) == 2 and np.ndim(thing[1]) == 2 and np.shape(thing[1])[1] == 3 \
             and np.shape(thing[0])[1] == 3:
         return Shape(np.asarray(thing[0], dtype=float), np.asarray(thing[1], dtype=int), 3)
@@ -110,17 +108,17 @@ def polygon_of(thing: Any) -> np.ndarray | None:
     return xy if xy.ndim == 2 and xy.shape[1] == 2 and len(xy) > 1 else None
 
 
-def _of_meshio(mesh: Any) -> Shape:
-    """Its triangles and quadrangles; where it has none, the outer faces of its solids; where it has neither, its lines."""
-    points = np.column_stack([np.asarray(mesh.points, dtype=float), np.zeros((len(mesh.points), 3 - np.shape(mesh.points)[1]))])
-    blocks = [(block.type, np.asarray(block.data, dtype=int)) for block in mesh.cells]
-    faces = [_fan(data, {"triangle": 3, "quad": 4}[kind]) for kind, data in blocks if kind in ("triangle", "quad")]
-    if not faces:
-        faces = [_outer([data[:, corners] for kind, data in blocks for corners in _SIDES.get(kind, ())])]
-    if faces and len(faces[0]):
-        return _used(points, np.concatenate(faces), 3)
+def _of_cells(mesh: Cells) -> Shape:
+    """The outer faces of its solids, whose sides may be there as well; where it has none, its triangles and quadrangles; where it has neither, its lines."""
+    blocks = [(block.type, block.data) for block in mesh.cells]
+    faces = _outer([data[:, corners] for kind, data in blocks for corners in _SIDES.get(kind, ())])
+    if not len(faces):
+        flat = [_fan(data, {"triangle": 3, "quad": 4}[kind]) for kind, data in blocks if kind in ("triangle", "quad")]
+        faces = np.concatenate(flat) if flat else faces
+    if len(faces):
+        return _used(mesh.points, faces, 3)
     lines = [data for kind, data in blocks if kind == "line"]
-    return _used(points, np.concatenate(lines) if lines else np.zeros((0, 3), dtype=int), 2 if lines else 3)
+    return _used(mesh.points, np.concatenate(lines) if lines else np.zeros((0, 3), dtype=int), 2 if lines else 3)
 
 
 _SIDES = {"tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
@@ -165,7 +163,7 @@ def sound(shape: Shape, closed: bool, close: bool) -> Shape:
         where = ", ".join(f"{axis} = {v:.4g}" for axis, v in zip("xyz", centre[: shape.dim]))
         what = "a hole" if len(found) == 1 else f"{len(found)} holes, the largest"
         of = f", {size:.3g} across, of {count} edges" if shape.dim == 3 else ""
-        raise ShapeFault(f"the {'surface' if shape.dim == 3 else 'line'} is not closed: {what} at {where}{of}", "close: true, in Python close=True, fills holes; open: true takes it as thin")
+        raise ShapeFault(f"the {'surface' if shape.dim == 3 else 'line'} is not closed: {what} at {where}{of}", "close: true, in Python close=True, fills holes; open: true takes it as thin" + ("; ground: true takes a terrain as solid below" if shape.dim == 3 else ""))
     if closed and len(edges.crowded):
         a = shape.points[edges.crowded[0]].mean(axis=0)
         where = ", ".join(f"{axis} = {v:.4g}" for axis, v in zip("xyz", a[: shape.dim]))

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +12,7 @@ from ..key_tables import keys as keys_of_map
 from ..waves import KINDS, MAKERS, WaveFault, Waves
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
+from .series import read_record
 
 if TYPE_CHECKING:
     from .basin_reader import BasinReader
@@ -88,7 +88,12 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> P
         return None
     numbers = {key: value for key in ("depth", "height", "period", "gamma", "ramp", "drift") if (value := _number(reader, node, key)) is not None}
     whole = {key: value for key in ("seed", "components") if (value := _whole(reader, node, key)) is not None}
-    record = _record(reader, node) if kind in ("elevation", "displacement") else None
+    record = None
+    if kind in ("elevation", "displacement"):
+        if (file := reader.get(node, "record")) is not None:
+            record = read_record(reader, reader.folder, file, "record")
+        else:
+            reader.error(node, "'record' is missing: a file of time and value, two numbers a line")
     focus_node = reader.get(node, "focus")
     focus = None
     if focus_node is not None:
@@ -174,20 +179,3 @@ def _whole(reader: BasinReader, node: Node, key: str) -> int | None:
         reader.error(entry, f"{key}: expected a whole number, got {shortest(value)}")
         return None
     return int(value)
-
-
-def _record(reader: BasinReader, node: Node) -> np.ndarray | None:
-    entry = reader.get(node, "record")
-    if entry is None:
-        reader.error(node, "'record' is missing: a file of time and value, two numbers a line")
-        return None
-    name = reader.text(entry)
-    try:
-        rows = np.loadtxt(Path(reader.path).parent / name, delimiter="," if name.endswith(".csv") else None, comments="#", ndmin=2)
-    except (OSError, ValueError) as fault:
-        reader.error(entry, f"record: '{name}' cannot be read: {' '.join(str(fault).split())}", "two numbers a line: time and value")
-        return None
-    if rows.shape[1] != 2 or len(rows) < 2 or not np.isfinite(rows).all() or not (np.diff(rows[:, 0]) > 0).all():
-        reader.error(entry, f"record: '{name}' must have two columns, two rows or more, and times that go upwards")
-        return None
-    return rows

@@ -168,7 +168,7 @@ class _Drawing(_Svg):
         x, y = self.path(line.points)
         name = literal(line.name)
         if line.style in ("reference", "dots"):
-            look = {"linestyle": (0, (5, 4))} if line.style == "reference" else {"linestyle": "none", "marker": "o", "markerfacecolor": "none"}
+            look: dict[str, Any] = {"linestyle": (0, (5, 4))} if line.style == "reference" else {"linestyle": "none", "marker": "o", "markerfacecolor": "none"}
             self.tells(self.axes.plot(x, y, color="0.13", linewidth=1.2, label=name, markersize=5, **look)[0], line.name)
             return
         look = {"color": color, "marker": marker, "markersize": 6.5, "markeredgecolor": "white", "markeredgewidth": 0.4}
@@ -275,7 +275,7 @@ def stability_map(case: CaseResult, setting: str = "") -> StabilityMap | None:
     for row in out.rows or [""]:
         for column in out.columns:
             wanted = {out.column_name: column, **({out.row_name: row} if out.rows else {})}
-            out.cells.append(_cell_of(runs, lambda r, wanted=wanted: wanted.items() <= r.parameters.items()))
+            out.cells.append(_cell_of(runs, lambda r, wanted=wanted: wanted.items() <= r.parameters.items()))  # type: ignore[misc]
     return out
 
 

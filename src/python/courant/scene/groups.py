@@ -1,0 +1,94 @@
+"""Named groups of the cells of a mesh: physical groups of Gmsh, sets of Abaqus and others, groups and objects of OBJ."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..words import did_you_mean
+from .shapes import ShapeFault
+
+
+@dataclass
+class Block:
+    """Cells of one type, as meshio names it; `data`: numbers of their nodes (m, corners)."""
+
+    type: str
+    data: np.ndarray
+
+
+@dataclass
+class Cells:
+    """`points` (n, 3) [L]; `groups`: rows of each block by name."""
+
+    points: np.ndarray
+    cells: list[Block]
+    groups: dict[str, list[np.ndarray]] = field(default_factory=dict)
+
+    def of(self, group: str) -> Cells:
+        """The cells of a group alone; all where none is named. Raises ShapeFault."""
+        if not group:
+            return self
+        if group not in self.groups:
+            raise ShapeFault(f"group: the mesh has no group '{group}'", f"{did_you_mean(group, self.groups)}its groups: {', '.join(self.groups) or 'none'}")
+        return Cells(self.points, [Block(one.type, one.data[rows]) for one, rows in zip(self.cells, self.groups[group]) if len(rows)], self.groups)
+
+    def nodes(self) -> dict[str, np.ndarray]:
+        """Numbers of the nodes of each group."""
+        return {name: np.unique(np.concatenate([np.zeros(0, dtype=int), *(block.data[some].ravel() for block, some in zip(self.cells, rows))]))
+                for name, rows in self.groups.items()}
+
+
+def cells_of(mesh: Any) -> Cells:
+    """A mesh of meshio."""
+    points = np.column_stack([np.asarray(mesh.points, dtype=float), np.zeros((len(mesh.points), 3 - np.shape(mesh.points)[1]))])
+    blocks = [Block(block.type, np.asarray(block.data, dtype=int)) for block in mesh.cells]
+    sets = getattr(mesh, "cell_sets", None) or {}
+    groups = {name: [np.asarray([] if rows is None else rows, dtype=int) for rows in of_blocks] for name, of_blocks in sets.items() if not name.startswith("gmsh:")}
+    tags = (getattr(mesh, "cell_data", None) or {}).get("gmsh:physical", [])
+    for name, value in (getattr(mesh, "field_data", None) or {}).items():
+        if name not in groups and np.shape(value) == (2,) and len(tags):  # number and dimension
+            groups[name] = [np.flatnonzero(np.asarray(tag) == value[0]) if _dimension(block.type) == value[1] else np.zeros(0, dtype=int)
+                            for block, tag in zip(blocks, tags)]
+    return Cells(points, blocks, groups)
+
+
+def _dimension(kind: str) -> int:
+    return 0 if kind == "vertex" else 1 if kind.startswith("line") else 2 if kind.startswith(("triangle", "quad")) else 3
+
+
+def read_obj(path: Path) -> Cells:
+    """Faces of an OBJ, polygons as triangles, with its groups, objects and materials. Raises ValueError, OSError."""
+    points: list[list[float]] = []
+    faces: list[list[int]] = []
+    groups: dict[str, list[int]] = {}
+    named: dict[str, list[str]] = {}  # by keyword
+    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ").splitlines(), 1):
+        words = line.split("#")[0].split()
+        if not words:
+            continue
+        if words[0] in ("o", "g", "usemtl"):
+            named[words[0]] = words[1:]
+        elif words[0] not in ("v", "f"):
+            continue
+        else:
+            try:
+                if words[0] == "v":
+                    points.append([float(word) for word in words[1:4]])
+                    continue
+                corners = [int(word.split("/")[0]) for word in words[1:]]
+            except ValueError:
+                raise ValueError(f"line {number}: expected numbers, got '{line.strip()[:40]}'") from None
+            corners = [at - 1 if at > 0 else len(points) + at for at in corners]
+            if len(corners) < 3 or not all(0 <= at < len(points) for at in corners):
+                raise ValueError(f"line {number}: a face has three vertices or more, of those above it, got '{line.strip()[:40]}'")
+            for k in range(1, len(corners) - 1):
+                for name in dict.fromkeys(name for names in named.values() for name in names):
+                    groups.setdefault(name, []).append(len(faces))
+                faces.append([corners[0], corners[k], corners[k + 1]])
+    if any(len(point) != 3 for point in points):
+        raise ValueError("a vertex has three numbers")
+    data = np.array(faces, dtype=int).reshape(-1, 3)
+    return Cells(np.array(points).reshape(-1, 3), [Block("triangle", data)], {name: [np.array(rows, dtype=int)] for name, rows in groups.items()})
