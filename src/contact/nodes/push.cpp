@@ -58,14 +58,6 @@ Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& t
   return part_of_step(touch.depth, speed, clock.dt_old, omega2);
 }
 
-Vec NodeContact::velocity_of_face(const World& world, const ContactFace& f,
-                                  const std::array<Real, 4>& N) const {
-  Vec v = Vec::Zero();
-  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
-    v += N[e] * world.nodes.v.vec(f.node[e]);
-  return v;
-}
-
 Real NodeContact::mass_of(const World& world, Index n) const {
   return world.nodes.held[n] ? unbounded : world.nodes.m[n];
 }
@@ -193,6 +185,7 @@ void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index
     const Vec v = world.nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N);
     const Real closing = -side * seen.at.n.dot(v);
     if (!(closing > 0 && gap < closing * soonest)) continue;
+    if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
     soonest = gap / closing;
     next.face = seen.face, next.at = seen.at, next.side = side, next.n = side * seen.at.n;
   }

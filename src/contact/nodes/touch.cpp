@@ -25,9 +25,10 @@ constexpr Real rounding = 1e-9;
 constexpr Real rise = 0.25;
 /// Along faces that meet at less than this angle (cosine) a node goes on with the nearest.
 constexpr Real bent = 0.5;
-/// What a face reaches beyond its corners (edge_margin), and by which it is off their mean plane there, of
-/// its radius; with rounding.
-constexpr Real edge_slack = 0.05, off_plane = 0.005;
+/// Bounds are found again when so many more faces may be met than were left then; of a node that meets
+/// faces, but touches none, after so many steps.
+constexpr std::size_t few_faces = 1;
+constexpr Real idle_steps = 3;
 /// Neighbours whose normals differ by less go on in one another (cosine).
 constexpr Real smooth = 0.866;
 
@@ -55,90 +56,131 @@ bool NodeContact::goes_on_at(const Slots& slots, const ContactFace& f) const {
   return false;
 }
 
-bool NodeContact::touches_any(Index i) const {
-  for (int k = 0; k < most_touches; ++k)
-    if (in_touch_->data(k)[i] != 0) return true;
-  return false;
-}
-
 // How far from a face a node that touches nothing may meet it within a step; also from behind, where it may
 // arrive late.
 Real NodeContact::idle_reach(const ContactFace& f) const {
   return closing_ + 1.5 * arrival_tolerance * f.depth;
 }
 
-// Whether a face, as it was when near candidates were taken, may be nearer to a place than `reach`.
-bool NodeContact::may_reach(Index face, const Vec& x, Real reach) const {
-  const FaceShape& shape = shapes_[static_cast<std::size_t>(face)];
-  const Vec w = x - shape.centre;
-  const Real around = 1.05 * shape.radius + reach;
-  return w.squaredNorm() <= around * around && distance_from_box(shape, w, edge_slack * shape.radius) <=
-                                                   reach + off_plane * shape.radius + edge_slack * shape.warp;
-}
-
-void NodeContact::narrow_block(const World& world, Index begin, Index end) {
-  Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
-  b.first_near.clear(), b.near.clear();
-  for (Index i = begin; i < end; ++i) {
-    b.first_near.push_back(static_cast<Index>(b.near.size()));
-    const Vec x = world.nodes.x.vec(node(i).node);
-    const auto k = static_cast<std::size_t>(i - begin);
-    const auto first = b.candidate.begin() + b.first[k], last = b.candidate.begin() + b.first[k + 1];
-    const auto within = [&](Index s, Real reach) {
-      return may_reach(s, x, most_distance(i, face(s)) + reach + near_margin_);
-    };
-    if (!fresh_ && !touches_any(i) &&
-        std::none_of(first, last, [&](Index s) { return within(s, idle_reach(face(s))); }))
-      continue;
-    std::copy_if(first, last, std::back_inserter(b.near),
-                 [&](Index s) { return within(s, std::max(reach_, face(s).depth)); });
+// Bounds of the chosen candidates as of now.
+void NodeContact::bound(const World& world, Block& b, Index i, const Vec& x) const {
+  const Field<Real>& at = world.nodes.x;
+  const Real* const positions[3] = {at.data(0), at.data(1), at.data(2)};
+  const std::size_t count = b.chosen.size();
+  b.corners.resize(count), b.distance.resize(2 * count);
+  for (std::size_t j = 0; j < count; ++j)
+    b.corners[j] = face(b.candidate[static_cast<std::size_t>(b.chosen[j])]).node.data();
+  loops_.bounds(positions, b.corners.data(), static_cast<Index>(count), x.data(), b.distance.data(),
+                b.distance.data() + count);
+  const auto rounded = [&](Real a) { return static_cast<float>(a - 1e-6 * (size_ + travelled_)); };
+  for (std::size_t j = 0; j < count; ++j) {
+    const auto c = static_cast<std::size_t>(b.chosen[j]);
+    const ContactFace& f = face(b.candidate[c]);
+    b.clear[c] =
+        rounded(travelled_ + b.distance[j] - most_distance(i, f) - 1.5 * arrival_tolerance * f.depth);
+    b.beside[c] = rounded(travelled_ + b.distance[count + j]);
   }
-  b.first_near.push_back(static_cast<Index>(b.near.size()));
 }
 
-// Candidates within reach, at the places of now: lists may hold more, or not, with the same result. Faces
-// that the node touches and their neighbours are seen as far behind as touches may be, so that it finds where
-// they go on; others not, which in a heap of bodies are many. To a node that touches nothing only faces that
-// it is over matter.
+// When a node that touches nothing may next meet a face.
+Real NodeContact::next_wake(const Block& b, std::size_t k) const {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (auto c = static_cast<std::size_t>(b.first[k]); c < static_cast<std::size_t>(b.first[k + 1]); ++c)
+    least = std::min<Real>(least, std::max(b.clear[c], b.beside[c]));
+  return least;
+}
+
+// Candidates within reach, at the positions of now: lists may hold more, or not, with the same result. Mostly
+// only faces that the node is over matter.
 void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
-  b.seen.clear();
+  if (fresh_) return look_around(world, b, i, x, slots);
+  look_over(world, b, i, x, slots);
+  const auto settled = [&](const Slot& slot) {
+    return slot.face < 0 || std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
+             return seen.face == slot.face && seen.at.inside;
+           });
+  };
+  if (!std::all_of(slots.begin(), slots.end(), settled)) look_around(world, b, i, x, slots);
+}
+
+void NodeContact::look_over(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
   const auto k = static_cast<std::size_t>(i % block_size);
-  const bool idle =
-      !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
-  for (Index c = b.first_near[k]; c < b.first_near[k + 1]; ++c) {
-    const Index s = b.near[static_cast<std::size_t>(c)];
-    const ContactFace& f = face(s);
+  const bool idle = std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
+  const Real near = travelled_ + (idle ? closing_ : reach_),
+             far = idle ? near : std::max(near, travelled_ + most_depth_);
+  const auto choose = [&] {
+    b.chosen.clear();
+    for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      if (b.beside[at] > travelled_ || b.clear[at] > far) continue;
+      if (b.clear[at] <= near || goes_on_at(slots, face(b.candidate[at]))) b.chosen.push_back(c);
+    }
+  };
+  choose();
+  const std::size_t least = b.left[k] + (idle ? 0 : few_faces);
+  if (b.chosen.size() > least || (idle && travelled_ > b.bounded[k] + idle_steps * closing_)) {
+    bound(world, b, i, x);
+    choose();
+    b.left[k] = static_cast<unsigned char>(std::min<std::size_t>(b.chosen.size(), 255));
+    b.bounded[k] = travelled_, b.wake[k] = next_wake(b, k);
+  }
+  b.seen.clear();
+  for (const Index c : b.chosen) {
+    Seen seen;
+    seen.face = b.candidate[static_cast<std::size_t>(c)];
+    const ContactFace& f = face(seen.face);
+    seen.at = project_over(corners_of(f, world.nodes.x), f.corners, x);
+    if (!seen.at.over) continue;
+    const Real reach = most_distance(i, f) + (idle                   ? idle_reach(f)
+                                              : goes_on_at(slots, f) ? std::max(reach_, f.depth)
+                                                                     : reach_);
+    if ((x - seen.at.q).squaredNorm() > reach * reach) continue;
+    seen.d = seen.at.n.dot(x - seen.at.q), seen.sure = seen.at.beyond == 0;
+    b.seen.push_back(seen);
+  }
+}
+
+// A node beside the face that it touches needs the nearest points of that and its neighbours, too, as far
+// behind as touches may be, so that it finds where they go on; not of others, which in a heap of bodies are
+// many.
+void NodeContact::look_around(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
+  const auto k = static_cast<std::size_t>(i % block_size);
+  b.seen.clear();
+  for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const Real clear = b.clear[at] - travelled_;
+    if (clear > std::max(reach_, most_depth_)) continue;
+    Seen seen;
+    seen.face = b.candidate[at];
+    const ContactFace& f = face(seen.face);
     const bool deep = fresh_ || goes_on_at(slots, f);
-    const Real reach = most_distance(i, f) + (idle   ? idle_reach(f)
-                                              : deep ? std::max(reach_, f.depth)
-                                                     : reach_);
-    if (!may_reach(s, x, reach + moved_)) continue;
-    Seen& seen = b.seen.emplace_back();
-    seen.face = s;
+    if (!deep && (clear > reach_ || b.beside[at] > travelled_)) continue;
     const FaceCorners corners = corners_of(f, world.nodes.x);
-    seen.at = (idle ? project_over : project)(corners, f.corners, x);
-    if (seen.at.over && !is_over(world, i, s, seen.at))
-      seen.at = idle ? Projection() : project_on_rim(corners, f.corners, x);
+    const Real reach = most_distance(i, f) + (deep ? std::max(reach_, f.depth) : reach_);
+    seen.at = (deep ? project : project_over)(corners, f.corners, x);
+    if (seen.at.over && !is_over(world, i, seen.face, seen.at)) {
+      if (!deep) continue;
+      seen.at = project_on_rim(corners, f.corners, x);
+    }
+    if ((!deep && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) continue;
     seen.d = seen.at.n.dot(x - seen.at.q);
-    if ((idle && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
+    b.seen.push_back(seen);
   }
 }
 
 void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   const auto c = static_cast<std::size_t>(i % block_size);
-  const bool any = touches_any(i);
-  if (!any && b.first_near[c] == b.first_near[c + 1]) return;
   const Vec x = world.nodes.x.vec(node(i).node);
   Slots slots;
-  if (any)
-    for (int k = 0; k < most_touches; ++k) slots[static_cast<std::size_t>(k)] = load(i, k);
+  for (int k = 0; k < most_touches; ++k)
+    if (in_touch_->data(k)[i] != 0) slots[static_cast<std::size_t>(k)] = load(i, k);
   look(world, b, i, x, slots);
   if (eroded_) let_go(world, b, i, x, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
   for (int k = 0; k < most_touches; ++k) {
     Slot& slot = slots[static_cast<std::size_t>(k)];
-    if (slot.face < 0 || !jumps(world, clock, i, slot, load(i, k).face)) continue;
+    if (slot.face < 0 || !jumps(world, clock, i, slot, in_touch_->data(k)[i] - 1)) continue;
     slot.slack = -slot.gap - std::max((*depth_)[i], Real(0));
     ++b.jumped;
   }
@@ -148,11 +190,17 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   if (std::any_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face < 0; }))
     expect(world, clock, b, i, slots);
   Real depth = 0;
+  bool touches = false;
   for (int k = 0; k < most_touches; ++k) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
-    if (any || slot.face >= 0) store(i, k, slot);
-    if (slot.face >= 0) depth = std::max(depth, -slot.gap - slot.slack);
+    if (in_touch_->data(k)[i] != 0 || slot.face >= 0) store(i, k, slot);
+    if (slot.face < 0) continue;
+    depth = std::max(depth, -slot.gap - slot.slack), touches = true;
   }
+  if (touches)
+    b.touching.push_back(i), b.wake[c] = -std::numeric_limits<Real>::infinity();
+  else if (b.wake[c] < 0)
+    b.wake[c] = next_wake(b, c);
   (*depth_)[i] = depth;
 }
 
@@ -161,10 +209,11 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
 // faces.
 bool NodeContact::jumps(const World& world, const Clock& clock, Index i, const Slot& slot,
                         Index face_before) const {
-  const Vec moved =
-      (world.nodes.v.vec(node(i).node) - velocity_of_face(world, face(slot.face), slot.at.N)) * clock.dt_old;
   const Real tolerated =
       slot.face == face_before ? arrival_tolerance * face(slot.face).depth : step_in_depth * size_;
+  if (!(-slot.gap - slot.slack > std::max((*depth_)[i], Real(0)) + tolerated)) return false;
+  const Vec moved =
+      (world.nodes.v.vec(node(i).node) - velocity_of_face(world, face(slot.face), slot.at.N)) * clock.dt_old;
   return -slot.gap - slot.slack > std::max((*depth_)[i], Real(0)) + 2 * moved.norm() + tolerated;
 }
 
@@ -412,7 +461,9 @@ void NodeContact::find_touches(const World& world, const Clock& clock, const Blo
   for (const Seen& seen : b.seen) {
     if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
     Slot slot;
-    if (!arrives(world, clock, i, seen, slot) || grazes(world, i, slot.face, slot.at.q, slot.n)) continue;
+    if (!arrives(world, clock, i, seen, slot)) continue;
+    if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
+    if (grazes(world, i, slot.face, slot.at.q, slot.n)) continue;
     // the deepest first, of nodes that start there the least deep one, late ones last; of equals the first
     // face
     int at = count;
