@@ -130,12 +130,12 @@ std::array<Real, 4> plane_change(const FaceCorners& x, int corners, const Vec& a
 }
 
 std::vector<BoxGrid::Box> boxes_around(const std::vector<ContactFace>& faces, const Field<Real>& x,
-                                       Real reach, Real least) {
+                                       Real reach, Real least, Real part) {
   std::vector<BoxGrid::Box> out(faces.size());
   for_each(static_cast<Index>(faces.size()), [&](Index f) {
     const ContactFace& face = faces[static_cast<std::size_t>(f)];
     const FaceCorners c = corners_of(face, x);
-    const Real around = reach + face.r + std::abs(face.lift) + std::max(face.depth - least, Real(0));
+    const Real around = reach + face.r + std::abs(face.lift) + std::max(part * face.depth - least, Real(0));
     BoxGrid::Box& box = out[static_cast<std::size_t>(f)];
     box.low = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cwiseMin(c[3]).array() - around;
     box.high = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cwiseMax(c[3]).array() + around;

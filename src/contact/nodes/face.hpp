@@ -94,10 +94,10 @@ FaceCorners corners_of(const Face& f, const Field<Real>& x) {
   return {x.vec(f.node[0]), x.vec(f.node[1]), x.vec(f.node[2]), x.vec(f.node[3])};
 }
 
-/// Boxes that reach `reach` further than faces and their r; where a depth is beyond `least`, by the
+/// Boxes that reach `reach` further than faces and their r; where `part` of a depth is beyond `least`, by the
 /// difference more. [L] On all threads.
 std::vector<BoxGrid::Box> boxes_around(const std::vector<ContactFace>& faces, const Field<Real>& x,
-                                       Real reach, Real least);
+                                       Real reach, Real least, Real part = 1);
 
 /// Area of a face, and its longest diagonal (of a triangle: side). [L2], [L]
 Real area_of(const FaceCorners& x);

@@ -152,7 +152,8 @@ void NodeContact::follow(World& world, const Clock& clock) {
                     })[0] >
            listed_reach_;
   };
-  if (count != eroded_count_ || !listed_once_ || (reach_ + travelled_ > listed_reach_ && is_beyond_lists())) {
+  if (count != eroded_count_ || !listed_once_ || (fresh_ && !listed_deep_) ||
+      (reach_ + travelled_ > listed_reach_ && is_beyond_lists())) {
     eroded_count_ = count;
     listed_reach_ = reach_ + std::max(list_margin * size_, reach_ - least_reach * size_);
     list(world);
@@ -185,12 +186,13 @@ void NodeContact::list(World& world) {
   may_touch_.resize(nodes_.size());
   for_each(set_->size(), [&](Index i) { may_touch_[static_cast<std::size_t>(i)] = has_faces(node(i)); });
   const Nodes& nodes = world.nodes;
-  search_.build(boxes_around(faces_, nodes.x, r_most_ + listed_reach_, least_reach * size_));
+  search_.build(boxes_around(faces_, nodes.x, r_most_ + listed_reach_, fresh_ ? least_reach * size_ : 0,
+                             fresh_ ? 1 : late_reach));
   for_each(static_cast<Index>(involved_.size()), [&](Index k) {
     listed_at_[static_cast<std::size_t>(k)] = nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
   });
   for_each_block(set_->size(), [&](Index begin, Index end) { list_block(world, begin, end); });
-  listed_once_ = true, travelled_ = 0;
+  listed_once_ = true, listed_deep_ = fresh_, travelled_ = 0;
 }
 
 void NodeContact::list_block(const World& world, Index begin, Index end) {
@@ -208,7 +210,7 @@ void NodeContact::list_block(const World& world, Index begin, Index end) {
   b.first_wake = -unlimited;
   b.clear.assign(b.candidate.size(), -std::numeric_limits<float>::infinity()), b.beside = b.clear;
   b.bounded.assign(b.first.size() - 1, -1), b.left.assign(b.bounded.size(), 0);
-  b.wake.resize(b.bounded.size());
+  b.wake.resize(b.bounded.size()), b.known.assign(b.bounded.size(), {-1, -1, -1});
   for (std::size_t k = 0; k < b.wake.size(); ++k)
     b.wake[k] = b.first[k] == b.first[k + 1] && !touches_any(begin + static_cast<Index>(k)) ? unlimited
                                                                                             : b.first_wake;

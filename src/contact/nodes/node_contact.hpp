@@ -61,6 +61,9 @@ class NodeContact : public Force,
                     public PointForceReporter {
  public:
   static constexpr int most_touches = 3;
+  /// A node behind a face and no further behind it a step ago than this has come through it, of the depth at
+  /// which a node counts as through; and how far behind it is looked for.
+  static constexpr Real arrival_tolerance = 0.02, late_reach = 1.5 * arrival_tolerance;
 
   /// `number` counts interfaces from 1 and keeps their sets apart. Adds a set of fields to `world`.
   NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world);
@@ -170,11 +173,14 @@ class NodeContact : public Force,
     bool idle = false;                 ///< none of its nodes touches or meets anything
     std::vector<Index> touching;       ///< tracked nodes, ascending
     std::vector<Touch> touches;
-    std::vector<Index> leaked;          ///< tracked nodes
-    Index jumped = 0;                   ///< touches that were suddenly deeper
-    std::vector<Seen> seen;             ///< scratch
-    std::vector<Index> chosen;          ///< scratch: positions in `candidate`
-    std::vector<const Index*> corners;  ///< scratch: of those, and their bounds
+    std::vector<Index> leaked;                           ///< tracked nodes
+    Index jumped = 0;                                    ///< touches that were suddenly deeper
+    std::vector<Seen> seen;                              ///< scratch
+    std::vector<std::array<Index, most_touches>> known;  ///< of each node: touched faces all around which
+                                                         ///< are candidates, if nodes may touch them
+    std::vector<Index> faces;                            ///< scratch: that may matter
+    std::vector<Index> chosen;                           ///< scratch: positions in `candidate`
+    std::vector<const Index*> corners;                   ///< scratch: of those, and their bounds
     std::vector<Real> distance;
     Real damping_work = 0, friction_work = 0;
     Real let_go = 0;  ///< energy of touches that end by a leak or with faces that are deleted [ML2/T2]
@@ -199,11 +205,11 @@ class NodeContact : public Force,
   bool may_touch(const World& world, const ContactNode& node, const ContactFace& face) const;
   void touch(World& world, const Clock& clock, Block& b, Index i);
   void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
-  void look_over(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
-  void look_around(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
+  void choose(Block& b, Index i, const Slots& slots, bool idle, bool around) const;
+  void add_missing(const World& world, Block& b, Index i, const Slots& slots) const;
+  void see(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, bool around) const;
   void bound(const World& world, Block& b, Index i, const Vec& x) const;
   Real next_wake(const Block& b, std::size_t k) const;
-  bool goes_on_at(const Slots& slots, const ContactFace& f) const;
   bool is_lost(const World& world, const Block& b, Index i) const;
   bool is_undecided(const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
@@ -242,7 +248,11 @@ class NodeContact : public Force,
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
   bool jumps(const World& world, const Clock& clock, Index i, const Slot& slot, Index face_before) const;
-  bool is_taken(const Slots& slots, Index face) const;
+  bool is_taken(const Slots& slots, Index face) const {
+    for (const Slot& slot : slots)
+      if (slot.face == face) return true;
+    return false;
+  }
   bool goes_on(const Slots& slots, const Seen& seen) const;
   void give_stiffness(const World& world, Index i, Slot& slot) const;
   void fade(const World& world, const Slot& slot, Touch& touch) const;
@@ -261,7 +271,9 @@ class NodeContact : public Force,
       v += N[e] * world.nodes.v.vec(f.node[e]);
     return v;
   }
-  Real mass_of(const World& world, Index node) const;
+  Real mass_of(const World& world, Index n) const {
+    return world.nodes.held[n] ? std::numeric_limits<Real>::infinity() : world.nodes.m[n];
+  }
   Real share_of(const Share& share) const;
   Vec force_of(const Share& share) const;
   Slot load(Index i, int k) const;
@@ -307,7 +319,8 @@ class NodeContact : public Force,
   std::vector<Vec> listed_at_;              ///< where those were when lists were made
   std::vector<Vec> last_at_;                ///< and a step ago
   bool listed_once_ = false;
-  bool fresh_ = true;  ///< nodes may be behind faces without having come through them
+  bool listed_deep_ = false;  ///< all faces as far as they are deep, not those around touched ones alone
+  bool fresh_ = true;         ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
   Real soft_dt_ = 0;         ///< longest step so far [T]
   bool first_step_ = false;  ///< of the run: from now on SOFT 1 has a step

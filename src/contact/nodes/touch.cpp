@@ -10,9 +10,6 @@ namespace courant {
 
 namespace {
 
-/// Who is behind a face and was no further behind it a step ago than this has come through it, of the depth
-/// at which a node counts as through.
-constexpr Real arrival_tolerance = 0.02;
 /// A touch that goes on to another face may be deeper there by this, of a usual face.
 constexpr Real step_in_depth = 1e-3;
 /// What is less deep at the start is rounding, of a usual face.
@@ -32,6 +29,16 @@ constexpr Real idle_steps = 3;
 /// Neighbours whose normals differ by less go on in one another (cosine).
 constexpr Real smooth = 0.866;
 
+/// Whether a node touches the face, or one that shares a corner with it.
+template <class Slots>
+bool goes_on_at(const FaceEdges& edges, const Slots& slots, Index face) {
+  return std::any_of(slots.begin(), slots.end(), [&](const auto& slot) {
+    if (slot.face < 0) return false;
+    const auto around = edges.around(slot.face);
+    return face >= around.front() && std::binary_search(around.begin(), around.end(), face);
+  });
+}
+
 }  // namespace
 
 // Whether the face goes on smoothly from one that the node touches.
@@ -43,23 +50,10 @@ bool NodeContact::goes_on(const Slots& slots, const Seen& seen) const {
   return false;
 }
 
-bool NodeContact::is_taken(const Slots& slots, Index face) const {
-  for (const Slot& slot : slots)
-    if (slot.face == face) return true;
-  return false;
-}
-
-// Whether the node touches the face, or one that shares a corner with it.
-bool NodeContact::goes_on_at(const Slots& slots, const ContactFace& f) const {
-  for (const Slot& slot : slots)
-    if (slot.face >= 0 && face(slot.face).shared(f) > 0) return true;
-  return false;
-}
-
 // How far from a face a node that touches nothing may meet it within a step; also from behind, where it may
 // arrive late.
 Real NodeContact::idle_reach(const ContactFace& f) const {
-  return closing_ + 1.5 * arrival_tolerance * f.depth;
+  return closing_ + late_reach * f.depth;
 }
 
 // Bounds of the chosen candidates as of now.
@@ -76,8 +70,7 @@ void NodeContact::bound(const World& world, Block& b, Index i, const Vec& x) con
   for (std::size_t j = 0; j < count; ++j) {
     const auto c = static_cast<std::size_t>(b.chosen[j]);
     const ContactFace& f = face(b.candidate[c]);
-    b.clear[c] =
-        rounded(travelled_ + b.distance[j] - most_distance(i, f) - 1.5 * arrival_tolerance * f.depth);
+    b.clear[c] = rounded(travelled_ + b.distance[j] - most_distance(i, f) - late_reach * f.depth);
     b.beside[c] = rounded(travelled_ + b.distance[count + j]);
   }
 }
@@ -91,78 +84,91 @@ Real NodeContact::next_wake(const Block& b, std::size_t k) const {
 }
 
 // Candidates within reach, at the positions of now: lists may hold more, or not, with the same result. Mostly
-// only faces that the node is over matter.
+// only faces that the node is over matter. A node beside the face that it touches needs the nearest points of
+// that and its neighbours, too, as far behind as touches may be, so that it finds where they go on; not of
+// others, which in a heap of bodies are many.
 void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
-  if (fresh_) return look_around(world, b, i, x, slots);
-  look_over(world, b, i, x, slots);
+  const auto k = static_cast<std::size_t>(i % block_size);
+  const bool idle =
+      !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
+  choose(b, i, slots, idle, fresh_);
+  const std::size_t least = b.left[k] + (idle ? 0 : few_faces);
+  if (!fresh_ && (b.chosen.size() > least || (idle && travelled_ > b.bounded[k] + idle_steps * closing_))) {
+    bound(world, b, i, x);
+    choose(b, i, slots, idle, false);
+    b.left[k] = static_cast<unsigned char>(std::min<std::size_t>(b.chosen.size(), 255));
+    b.bounded[k] = travelled_;
+    if (idle) b.wake[k] = next_wake(b, k);
+  }
+  see(world, b, i, x, slots, fresh_);
   const auto settled = [&](const Slot& slot) {
     return slot.face < 0 || std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
              return seen.face == slot.face && seen.at.inside;
            });
   };
-  if (!std::all_of(slots.begin(), slots.end(), settled)) look_around(world, b, i, x, slots);
+  if (fresh_ || std::all_of(slots.begin(), slots.end(), settled)) return;
+  choose(b, i, slots, false, true);
+  see(world, b, i, x, slots, true);
 }
 
-void NodeContact::look_over(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
+// Candidates that may matter. `around`: those that share corners with touched faces also where the node is
+// not over them.
+void NodeContact::choose(Block& b, Index i, const Slots& slots, bool idle, bool around) const {
   const auto k = static_cast<std::size_t>(i % block_size);
-  const bool idle = std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
   const Real near = travelled_ + (idle ? closing_ : reach_),
              far = idle ? near : std::max(near, travelled_ + most_depth_);
-  const auto choose = [&] {
-    b.chosen.clear();
-    for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
-      const auto at = static_cast<std::size_t>(c);
-      if (b.beside[at] > travelled_ || b.clear[at] > far) continue;
-      if (b.clear[at] <= near || goes_on_at(slots, face(b.candidate[at]))) b.chosen.push_back(c);
-    }
-  };
-  choose();
-  const std::size_t least = b.left[k] + (idle ? 0 : few_faces);
-  if (b.chosen.size() > least || (idle && travelled_ > b.bounded[k] + idle_steps * closing_)) {
-    bound(world, b, i, x);
-    choose();
-    b.left[k] = static_cast<unsigned char>(std::min<std::size_t>(b.chosen.size(), 255));
-    b.bounded[k] = travelled_, b.wake[k] = next_wake(b, k);
-  }
-  b.seen.clear();
-  for (const Index c : b.chosen) {
-    Seen seen;
-    seen.face = b.candidate[static_cast<std::size_t>(c)];
-    const ContactFace& f = face(seen.face);
-    seen.at = project_over(corners_of(f, world.nodes.x), f.corners, x);
-    if (!seen.at.over) continue;
-    const Real reach = most_distance(i, f) + (idle                   ? idle_reach(f)
-                                              : goes_on_at(slots, f) ? std::max(reach_, f.depth)
-                                                                     : reach_);
-    if ((x - seen.at.q).squaredNorm() > reach * reach) continue;
-    seen.d = seen.at.n.dot(x - seen.at.q), seen.sure = seen.at.beyond == 0;
-    b.seen.push_back(seen);
+  b.chosen.clear();
+  for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const bool over = b.beside[at] <= travelled_;
+    if (!(over || around) || b.clear[at] > far) continue;
+    if ((over && b.clear[at] <= near) || fresh_ || goes_on_at(edges_, slots, b.candidate[at]))
+      b.chosen.push_back(c);
   }
 }
 
-// A node beside the face that it touches needs the nearest points of that and its neighbours, too, as far
-// behind as touches may be, so that it finds where they go on; not of others, which in a heap of bodies are
-// many.
-void NodeContact::look_around(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
+// Of the faces around those that the node touches, those that were too far away for its list.
+void NodeContact::add_missing(const World& world, Block& b, Index i, const Slots& slots) const {
+  if (fresh_ || !may_touch_[static_cast<std::size_t>(i)]) return;
   const auto k = static_cast<std::size_t>(i % block_size);
-  b.seen.clear();
-  for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
-    const auto at = static_cast<std::size_t>(c);
-    const Real clear = b.clear[at] - travelled_;
-    if (clear > std::max(reach_, most_depth_)) continue;
-    Seen seen;
-    seen.face = b.candidate[at];
-    const ContactFace& f = face(seen.face);
-    const bool deep = fresh_ || goes_on_at(slots, f);
-    if (!deep && (clear > reach_ || b.beside[at] > travelled_)) continue;
+  const auto first = b.candidate.begin() + b.first[k], last = b.candidate.begin() + b.first[k + 1];
+  const std::size_t listed = b.faces.size();
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    const Index touched = slots[j].face;
+    if (touched < 0 || touched == b.known[k][j]) continue;
+    const std::size_t before = b.faces.size();
+    for (const Index g : edges_.around(touched))
+      if (!std::binary_search(first, last, g) && may_touch(world, node(i), face(g))) b.faces.push_back(g);
+    if (b.faces.size() == before) b.known[k][j] = touched;
+  }
+  if (b.faces.size() == listed) return;
+  std::sort(b.faces.begin(), b.faces.end());
+  b.faces.erase(std::unique(b.faces.begin(), b.faces.end()), b.faces.end());
+}
+
+void NodeContact::see(const World& world, Block& b, Index i, const Vec& x, const Slots& slots,
+                      bool around) const {
+  const bool idle =
+      !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
+  b.seen.clear(), b.faces.clear();
+  for (const Index c : b.chosen) b.faces.push_back(b.candidate[static_cast<std::size_t>(c)]);
+  if (!idle) add_missing(world, b, i, slots);
+  for (const Index s : b.faces) {
+    const ContactFace& f = face(s);
     const FaceCorners corners = corners_of(f, world.nodes.x);
-    const Real reach = most_distance(i, f) + (deep ? std::max(reach_, f.depth) : reach_);
-    seen.at = (deep ? project : project_over)(corners, f.corners, x);
-    if (seen.at.over && !is_over(world, i, seen.face, seen.at)) {
-      if (!deep) continue;
-      seen.at = project_on_rim(corners, f.corners, x);
-    }
-    if ((!deep && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) continue;
+    const auto is_deep = [&] { return fresh_ || goes_on_at(edges_, slots, s); };
+    const bool whole = around && is_deep();
+    Seen seen;
+    seen.face = s;
+    seen.at = (whole ? project : project_over)(corners, f.corners, x);
+    seen.sure = around || seen.at.beyond == 0;
+    if (around && seen.at.over && !is_over(world, i, s, seen.at))
+      seen.at = whole ? project_on_rim(corners, f.corners, x) : Projection();
+    if (!whole && !seen.at.over) continue;
+    const Real reach = most_distance(i, f) + (idle                 ? idle_reach(f)
+                                              : whole || is_deep() ? std::max(reach_, f.depth)
+                                                                   : reach_);
+    if ((x - seen.at.q).squaredNorm() > reach * reach) continue;
     seen.d = seen.at.n.dot(x - seen.at.q);
     b.seen.push_back(seen);
   }
@@ -456,10 +462,14 @@ bool NodeContact::take(const World& world, Index i, const Slot& slot, Slots& slo
 
 void NodeContact::find_touches(const World& world, const Clock& clock, const Block& b, Index i,
                                Slots& slots) const {
+  const auto is_new = [&](const Seen& seen) {
+    return seen.at.over && !is_taken(slots, seen.face) && !goes_on(slots, seen);
+  };
+  if (std::none_of(b.seen.begin(), b.seen.end(), is_new)) return;
   std::array<Slot, most_touches> found;
   int count = 0;
   for (const Seen& seen : b.seen) {
-    if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
+    if (!is_new(seen)) continue;
     Slot slot;
     if (!arrives(world, clock, i, seen, slot)) continue;
     if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
