@@ -66,13 +66,13 @@ TEST(FaceBounds, AreNeverTooFarForAnyFaceAndMotion) {
     use_instruction_set(set);
     const FaceBoundLoops loops = face_bound_loops();
     std::mt19937 random(7);
-    std::uniform_real_distribution<Real> within(-1.2, 2.2), way(-1, 1);
+    std::uniform_real_distribution<Real> within(-1.2, 2.2), unit(-1, 1);
     constexpr std::size_t count = 11;  // more than one pack, and no whole number of them
     int useful = 0, trials = 0;
     for (const Real noise : {0.0, 0.01, 0.05, 0.3})
       for (int round = 0; round < 150; ++round) {
         const ManyFaces nodes = random_faces(count, noise, random);
-        const Vec y(within(random), within(random), round % 2 == 0 ? 0.1 * way(random) : way(random));
+        const Vec y(within(random), within(random), round % 2 == 0 ? 0.1 * unit(random) : unit(random));
         std::vector<const Index*> corners;
         for (const auto& face : nodes.face) corners.push_back(face.data());
         const Real* const x[3] = {nodes.x[0].data(), nodes.x[1].data(), nodes.x[2].data()};
@@ -89,7 +89,7 @@ TEST(FaceBounds, AreNeverTooFarForAnyFaceAndMotion) {
             const Vec aside = (w - w.dot(n) * n).normalized(), up = w.dot(n) < 0 ? Vec(-n) : n;
             // at random, or the face turns towards y as far as it can, and y comes over it
             const auto by = [&](const Vec& worst) {
-              const Vec any(way(random), way(random), way(random));
+              const Vec any(unit(random), unit(random), unit(random));
               return Vec(0.499 * beside[f] * (k == 0 ? worst : any).normalized());
             };
             for (Vec& corner : moved) corner += by((corner - centre).dot(aside) > 0 ? Vec(-up) : up);
