@@ -216,6 +216,33 @@ void NodeContact::list_block(const World& world, Index begin, Index end) {
                                                                                             : b.first_wake;
 }
 
+// Bounds of the chosen candidates as of now.
+void NodeContact::bound(const World& world, Block& b, Index i, const Vec& x) const {
+  const Field<Real>& at = world.nodes.x;
+  const Real* const positions[3] = {at.data(0), at.data(1), at.data(2)};
+  const std::size_t count = b.chosen.size();
+  b.corners.resize(count), b.distance.resize(2 * count);
+  for (std::size_t j = 0; j < count; ++j)
+    b.corners[j] = face(b.candidate[static_cast<std::size_t>(b.chosen[j])]).node.data();
+  loops_.bounds(positions, b.corners.data(), static_cast<Index>(count), x.data(), b.distance.data(),
+                b.distance.data() + count);
+  const auto rounded = [&](Real a) { return static_cast<float>(a - 1e-6 * (size_ + travelled_)); };
+  for (std::size_t j = 0; j < count; ++j) {
+    const auto c = static_cast<std::size_t>(b.chosen[j]);
+    const ContactFace& f = face(b.candidate[c]);
+    b.clear[c] = rounded(travelled_ + b.distance[j] - most_distance(i, f) - late_reach * f.depth);
+    b.beside[c] = rounded(travelled_ + b.distance[count + j]);
+  }
+}
+
+// When a node that touches nothing may next meet a face.
+Real NodeContact::next_wake(const Block& b, std::size_t k) const {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (auto c = static_cast<std::size_t>(b.first[k]); c < static_cast<std::size_t>(b.first[k + 1]); ++c)
+    least = std::min<Real>(least, std::max(b.clear[c], b.beside[c]));
+  return least;
+}
+
 void NodeContact::start(World& world, const Clock& clock) {
   first_step_ = soft_dt_ == 0 && clock.dt_old > 0;
   soft_dt_ = std::max(soft_dt_, clock.dt_old);

@@ -56,33 +56,6 @@ Real NodeContact::idle_reach(const ContactFace& f) const {
   return closing_ + late_reach * f.depth;
 }
 
-// Bounds of the chosen candidates as of now.
-void NodeContact::bound(const World& world, Block& b, Index i, const Vec& x) const {
-  const Field<Real>& at = world.nodes.x;
-  const Real* const positions[3] = {at.data(0), at.data(1), at.data(2)};
-  const std::size_t count = b.chosen.size();
-  b.corners.resize(count), b.distance.resize(2 * count);
-  for (std::size_t j = 0; j < count; ++j)
-    b.corners[j] = face(b.candidate[static_cast<std::size_t>(b.chosen[j])]).node.data();
-  loops_.bounds(positions, b.corners.data(), static_cast<Index>(count), x.data(), b.distance.data(),
-                b.distance.data() + count);
-  const auto rounded = [&](Real a) { return static_cast<float>(a - 1e-6 * (size_ + travelled_)); };
-  for (std::size_t j = 0; j < count; ++j) {
-    const auto c = static_cast<std::size_t>(b.chosen[j]);
-    const ContactFace& f = face(b.candidate[c]);
-    b.clear[c] = rounded(travelled_ + b.distance[j] - most_distance(i, f) - late_reach * f.depth);
-    b.beside[c] = rounded(travelled_ + b.distance[count + j]);
-  }
-}
-
-// When a node that touches nothing may next meet a face.
-Real NodeContact::next_wake(const Block& b, std::size_t k) const {
-  Real least = std::numeric_limits<Real>::infinity();
-  for (auto c = static_cast<std::size_t>(b.first[k]); c < static_cast<std::size_t>(b.first[k + 1]); ++c)
-    least = std::min<Real>(least, std::max(b.clear[c], b.beside[c]));
-  return least;
-}
-
 // Candidates within reach, at the positions of now: lists may hold more, or not, with the same result. Mostly
 // only faces that the node is over matter. A node beside the face that it touches needs the nearest points of
 // that and its neighbours, too, as far behind as touches may be, so that it finds where they go on; not of
@@ -93,13 +66,14 @@ void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, cons
       !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
   choose(b, i, slots, idle, fresh_);
   const std::size_t least = b.left[k] + (idle ? 0 : few_faces);
-  if (!fresh_ && (b.chosen.size() > least || (idle && travelled_ > b.bounded[k] + idle_steps * closing_))) {
+  if (b.chosen.size() > least || (idle && travelled_ > b.bounded[k] + idle_steps * closing_)) {
     bound(world, b, i, x);
-    choose(b, i, slots, idle, false);
+    choose(b, i, slots, idle, fresh_);
     b.left[k] = static_cast<unsigned char>(std::min<std::size_t>(b.chosen.size(), 255));
     b.bounded[k] = travelled_;
     if (idle) b.wake[k] = next_wake(b, k);
   }
+  b.seen.clear();
   see(world, b, i, x, slots, fresh_);
   const auto settled = [&](const Slot& slot) {
     return slot.face < 0 || std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
@@ -150,17 +124,27 @@ void NodeContact::see(const World& world, Block& b, Index i, const Vec& x, const
                       bool around) const {
   const bool idle =
       !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
-  b.seen.clear(), b.faces.clear();
+  const auto before = static_cast<std::ptrdiff_t>(b.seen.size());
+  b.faces.clear();
   for (const Index c : b.chosen) b.faces.push_back(b.candidate[static_cast<std::size_t>(c)]);
   if (!idle) add_missing(world, b, i, slots);
-  for (const Index s : b.faces) {
+  const bool all_chosen = b.faces.size() == b.chosen.size();
+  for (std::size_t j = 0; j < b.faces.size(); ++j) {
+    const Index s = b.faces[j];
     const ContactFace& f = face(s);
     const FaceCorners corners = corners_of(f, world.nodes.x);
     const auto is_deep = [&] { return fresh_ || goes_on_at(edges_, slots, s); };
     const bool whole = around && is_deep();
     Seen seen;
     seen.face = s;
-    seen.at = (whole ? project : project_over)(corners, f.corners, x);
+    const auto last = std::find_if(b.seen.begin(), b.seen.begin() + before,
+                                   [&](const Seen& other) { return other.face == s; });
+    if (last != b.seen.begin() + before)
+      seen.at = last->at;
+    else if (whole && all_chosen && b.beside[static_cast<std::size_t>(b.chosen[j])] > travelled_)
+      seen.at = project_on_rim(corners, f.corners, x);
+    else
+      seen.at = (whole ? project : project_over)(corners, f.corners, x);
     seen.sure = around || seen.at.beyond == 0;
     if (around && seen.at.over && !is_over(world, i, s, seen.at))
       seen.at = whole ? project_on_rim(corners, f.corners, x) : Projection();
@@ -172,6 +156,7 @@ void NodeContact::see(const World& world, Block& b, Index i, const Vec& x, const
     seen.d = seen.at.n.dot(x - seen.at.q);
     b.seen.push_back(seen);
   }
+  b.seen.erase(b.seen.begin(), b.seen.begin() + before);
 }
 
 void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
