@@ -123,8 +123,7 @@ class EdgeContactBuilder {
       const auto a = world_.segments.nodes(faces[k]);
       const FaceCorners x{world_.nodes.x.vec(a[0]), world_.nodes.x.vec(a[1]), world_.nodes.x.vec(a[2]),
                           world_.nodes.x.vec(a[3])};
-      const FaceShape shape = shape_of(x, a[2] == a[3] ? 3 : 4);
-      n[k] = shape.n, centre[k] = shape.centre;
+      n[k] = plane_normal(x), centre[k] = centre_of(x, a[2] == a[3] ? 3 : 4);
     }
     return n[0].dot(n[1]) < sharp && n[0].dot(centre[1] - centre[0]) < 0;
   }

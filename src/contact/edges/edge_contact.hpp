@@ -56,7 +56,8 @@ class EdgeContact : public Force,
   const Resource& touches() const { return touches_resource_; }
   bool touches_something() const { return !key_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
-  void add_force_on(Index node, Vec& force) const;
+  /// Whether there was any.
+  bool add_force_on(Index node, Vec& force) const;
   const std::vector<Index>& involved() const { return involved_; }  ///< nodes that may get some, ascending
 
   struct Penetrations {

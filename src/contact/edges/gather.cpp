@@ -145,15 +145,17 @@ StiffestContact EdgeContact::pull_on(const World& world, Index p) const {
   return {{now / m, n}, {(now + soon) / m, n}};
 }
 
-void EdgeContact::add_force_on(Index node, Vec& force) const {
+bool EdgeContact::add_force_on(Index node, Vec& force) const {
   note_access(touches_resource_);
   const Index p = place_[static_cast<std::size_t>(node)];
-  if (key_.empty() || p < 0) return;
-  for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
+  if (key_.empty() || p < 0) return false;
+  const Index begin = first_[static_cast<std::size_t>(p)], end = first_[static_cast<std::size_t>(p) + 1];
+  for (Index s = begin; s < end; ++s) {
     const Index of = order_[static_cast<std::size_t>(s)];
     const Touch& touch = touches_[static_cast<std::size_t>(of / 4)];
     force += share_of(touch, static_cast<int>(of % 4)) * touch.force;
   }
+  return begin < end;
 }
 
 TimeLimit::Limit EdgeContact::limit(const World& world, const Clock&) {

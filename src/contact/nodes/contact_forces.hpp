@@ -25,8 +25,7 @@ class ContactForces : public Force {
     const std::vector<Index>& nodes = contact_->involved();
     for (auto n = std::lower_bound(nodes.begin(), nodes.end(), begin); n != nodes.end() && *n < end; ++n) {
       Vec force = Vec::Zero();
-      contact_->add_force_on(*n, force);
-      world.nodes.f.add(*n, force);
+      if (contact_->add_force_on(*n, force)) world.nodes.f.add(*n, force);
     }
   }
 

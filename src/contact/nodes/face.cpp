@@ -26,40 +26,6 @@ Projection at(const FaceCorners& x, Real s, Real t) {
 
 }  // namespace
 
-Vec plane_normal(const FaceCorners& x) {
-  return (x[2] - x[0]).cross(x[3] - x[1]).normalized();
-}
-
-Vec centre_of(const FaceCorners& x, int corners) {
-  return corners == 4 ? Vec(0.25 * (x[0] + x[1] + x[2] + x[3])) : Vec((x[0] + x[1] + x[2]) / 3);
-}
-
-FaceShape shape_of(const FaceCorners& x, int corners) {
-  FaceShape out;
-  out.centre = centre_of(x, corners);
-  out.n = plane_normal(x);
-  const Vec side = x[1] - x[0] + x[2] - x[3];
-  out.along = (side - side.dot(out.n) * out.n).normalized(), out.across = out.n.cross(out.along);
-  for (int e = 0; e < corners; ++e) {
-    const Vec d = x[static_cast<std::size_t>(e)] - out.centre;
-    const Real u = d.dot(out.along), v = d.dot(out.across);
-    out.extent = {std::min(out.extent[0], u), std::max(out.extent[1], u), std::min(out.extent[2], v),
-                  std::max(out.extent[3], v)};
-    out.radius = std::max(out.radius, d.squaredNorm());
-    out.warp = std::max(out.warp, std::abs(d.dot(out.n)));
-  }
-  out.radius = std::sqrt(out.radius);
-  return out;
-}
-
-Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider) {
-  const Real u = w.dot(shape.along), v = w.dot(shape.across);
-  const Real beside = std::max({shape.extent[0] - u, u - shape.extent[1], wider}) - wider,
-             across = std::max({shape.extent[2] - v, v - shape.extent[3], wider}) - wider,
-             above = std::max(std::abs(w.dot(shape.n)) - shape.warp, Real(0));
-  return std::sqrt(beside * beside + across * across + above * above);
-}
-
 Projection project_on_rim(const FaceCorners& x, int corners, const Vec& y) {
   Projection p;
   Real least = infinite;
@@ -164,12 +130,12 @@ std::array<Real, 4> plane_change(const FaceCorners& x, int corners, const Vec& a
 }
 
 std::vector<BoxGrid::Box> boxes_around(const std::vector<ContactFace>& faces, const Field<Real>& x,
-                                       Real reach, Real least) {
+                                       Real reach, Real least, Real part) {
   std::vector<BoxGrid::Box> out(faces.size());
   for_each(static_cast<Index>(faces.size()), [&](Index f) {
     const ContactFace& face = faces[static_cast<std::size_t>(f)];
     const FaceCorners c = corners_of(face, x);
-    const Real around = reach + face.r + std::abs(face.lift) + std::max(face.depth - least, Real(0));
+    const Real around = reach + face.r + std::abs(face.lift) + std::max(part * face.depth - least, Real(0));
     BoxGrid::Box& box = out[static_cast<std::size_t>(f)];
     box.low = c[0].cwiseMin(c[1]).cwiseMin(c[2]).cwiseMin(c[3]).array() - around;
     box.high = c[0].cwiseMax(c[1]).cwiseMax(c[2]).cwiseMax(c[3]).array() + around;

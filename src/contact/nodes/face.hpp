@@ -31,19 +31,6 @@ struct ContactFace {
   }
 };
 
-/// Where a face is now, roughly: enough to know that a node is far from it.
-struct FaceShape {
-  Vec centre = Vec::Zero(), n = Vec::Zero();      ///< mean of the corners; unit normal [L], [-]
-  Real radius = 0;                                ///< of a sphere around the corners [L]
-  Real warp = 0;                                  ///< of the corners from the mean plane [L]
-  Vec along = Vec::Zero(), across = Vec::Zero();  ///< unit vectors of the mean plane [-]
-  std::array<Real, 4> extent{};  ///< least and greatest of the corners along both, from the centre [L]
-};
-
-/// Distance of a position, given from the centre, from a box around the corners, `wider` along the face: at
-/// most that from the face. [L]
-Real distance_from_box(const FaceShape& shape, const Vec& w, Real wider);
-
 /// Faces reach this far beyond their edges, of their width: over faces that continue there, and for ties.
 inline constexpr Real edge_margin = 0.0125;
 
@@ -81,10 +68,13 @@ struct Projection {
 };
 
 /// Unit normal of the plane along both diagonals.
-Vec plane_normal(const FaceCorners& x);
+inline Vec plane_normal(const FaceCorners& x) {
+  return (x[2] - x[0]).cross(x[3] - x[1]).normalized();
+}
 /// Mean of the corners. [L]
-Vec centre_of(const FaceCorners& x, int corners);
-FaceShape shape_of(const FaceCorners& x, int corners);
+inline Vec centre_of(const FaceCorners& x, int corners) {
+  return corners == 4 ? Vec(0.25 * (x[0] + x[1] + x[2] + x[3])) : Vec((x[0] + x[1] + x[2]) / 3);
+}
 Projection project(const FaceCorners& x, int corners, const Vec& y);
 /// The same where the position is over the face; else nothing holds but that it is not.
 Projection project_over(const FaceCorners& x, int corners, const Vec& y);
@@ -104,10 +94,10 @@ FaceCorners corners_of(const Face& f, const Field<Real>& x) {
   return {x.vec(f.node[0]), x.vec(f.node[1]), x.vec(f.node[2]), x.vec(f.node[3])};
 }
 
-/// Boxes that reach `reach` further than faces and their r; where a depth is beyond `least`, by the
+/// Boxes that reach `reach` further than faces and their r; where `part` of a depth is beyond `least`, by the
 /// difference more. [L] On all threads.
 std::vector<BoxGrid::Box> boxes_around(const std::vector<ContactFace>& faces, const Field<Real>& x,
-                                       Real reach, Real least);
+                                       Real reach, Real least, Real part = 1);
 
 /// Area of a face, and its longest diagonal (of a triangle: side). [L2], [L]
 Real area_of(const FaceCorners& x);

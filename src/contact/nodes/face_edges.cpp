@@ -1,6 +1,7 @@
 #include "contact/nodes/face_edges.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace courant {
 
@@ -25,6 +26,22 @@ FaceEdges::FaceEdges(const std::vector<ContactFace>& faces) : edge_(faces.size()
     at_.push_back(sides[k].face);
   }
   first_.push_back(at_.size());
+  std::vector<std::pair<Index, Index>> corners;  // node, face
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const Index n : faces[f].node) corners.emplace_back(n, static_cast<Index>(f));
+  std::sort(corners.begin(), corners.end());
+  for (const ContactFace& face : faces) {
+    const std::size_t begin = around_.size();
+    first_around_.push_back(begin);
+    for (const Index n : face.node)
+      for (auto at = std::lower_bound(corners.begin(), corners.end(), std::pair<Index, Index>(n, 0));
+           at != corners.end() && at->first == n; ++at)
+        around_.push_back(at->second);
+    const auto from = around_.begin() + static_cast<std::ptrdiff_t>(begin);
+    std::sort(from, around_.end());
+    around_.erase(std::unique(from, around_.end()), around_.end());
+  }
+  first_around_.push_back(around_.size());
 }
 
 }  // namespace courant

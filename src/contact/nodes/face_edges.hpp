@@ -1,6 +1,7 @@
 #pragma once
-// Which faces of an interface meet at an edge.
+// Which faces of an interface meet at an edge, and at corners.
 #include <array>
+#include <span>
 #include <vector>
 
 #include "contact/nodes/face.hpp"
@@ -19,11 +20,18 @@ class FaceEdges {
       if (at_[k] != f && what(at_[k])) return true;
     return false;
   }
+  /// Faces that share a corner with face f, itself included; ascending.
+  std::span<const Index> around(Index f) const {
+    const auto k = static_cast<std::size_t>(f);
+    return {around_.data() + first_around_[k], first_around_[k + 1] - first_around_[k]};
+  }
 
  private:
   std::vector<std::array<Index, 4>> edge_;  ///< of each face
   std::vector<std::size_t> first_;          ///< of each edge, into at_
   std::vector<Index> at_;                   ///< faces, ascending
+  std::vector<std::size_t> first_around_;   ///< of each face, into around_
+  std::vector<Index> around_;
 };
 
 /// The corners of edge e.

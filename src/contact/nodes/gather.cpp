@@ -82,6 +82,7 @@ void NodeContact::sum_springs_of_bodies(const World& world, const Clock& clock) 
 }
 
 StiffestContact NodeContact::pull_on(const World& world, Index p) const {
+  if (first_[static_cast<std::size_t>(p)] == first_[static_cast<std::size_t>(p) + 1]) return {};
   const Index n = involved_[static_cast<std::size_t>(p)];
   Real now = 0, soon = 0;
   for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
@@ -94,13 +95,15 @@ StiffestContact NodeContact::pull_on(const World& world, Index p) const {
   return {{now / m, n}, {(now + soon) / m, n}};
 }
 
-void NodeContact::add_force_on(Index node, Vec& force) const {
+bool NodeContact::add_force_on(Index node, Vec& force) const {
   note_access(touches_resource_);
   const Index p = place_[static_cast<std::size_t>(node)];
-  if (shares_.empty() || p < 0) return;
-  for (Index s = first_[static_cast<std::size_t>(p)]; s < first_[static_cast<std::size_t>(p) + 1]; ++s) {
+  if (shares_.empty() || p < 0) return false;
+  const Index begin = first_[static_cast<std::size_t>(p)], end = first_[static_cast<std::size_t>(p) + 1];
+  for (Index s = begin; s < end; ++s) {
     force += force_of(shares_[static_cast<std::size_t>(order_[static_cast<std::size_t>(s)])]);
   }
+  return begin < end;
 }
 
 Vec NodeContact::force_between(const Surface& a, const Surface& b) const {

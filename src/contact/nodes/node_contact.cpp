@@ -15,9 +15,8 @@ namespace {
 /// Nodes are looked for this far in front of faces and behind them, of a usual face.
 constexpr Real least_reach = 0.3;
 /// Lists hold until nodes may have come nearer by this, of a usual face.
-constexpr Real list_margin = 0.3;
-/// Near candidates hold until nodes may have come nearer by this, of a usual face, or by so many steps.
-constexpr Real least_near_margin = 0.05, near_steps = 8;
+constexpr Real list_margin = 0.5;
+constexpr Real unlimited = std::numeric_limits<Real>::infinity();
 
 template <class T>
 Field<T>& slot_field(FieldSet& set, const char* name, const char* dimension, int components) {
@@ -72,14 +71,17 @@ void NodeContact::take_involved(const World& world) {
     involved_.push_back(n);
   }
   listed_at_.assign(involved_.size(), Vec::Zero());
-  narrowed_at_ = listed_at_;
+  last_at_ = listed_at_;
 }
 
 // Of the smaller half of the faces, so that few large ones make no long lists for all.
 void NodeContact::find_sizes() {
   for (const ContactNode& n : nodes_) r_most_ = std::max(r_most_, n.r + n.most_lift);
   std::vector<Real> sizes;
-  for (const ContactFace& f : faces_) sizes.push_back(std::sqrt(f.area));
+  for (const ContactFace& f : faces_) {
+    sizes.push_back(std::sqrt(f.area));
+    most_depth_ = std::max(most_depth_, f.depth);
+  }
   if (sizes.empty()) return;
   const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
   std::nth_element(sizes.begin(), middle, sizes.end());
@@ -116,42 +118,46 @@ void NodeContact::declare(const World& world, Accesses& a) const {
 // Lists are made anew when nodes may have come nearer than lists reach.
 void NodeContact::follow(World& world, const Clock& clock) {
   const Nodes& nodes = world.nodes;
-  struct Most {
-    Real listed2 = 0, narrowed2 = 0, v2 = 0;
-    void take(const Most& other) {
-      listed2 = std::max(listed2, other.listed2), narrowed2 = std::max(narrowed2, other.narrowed2);
-      v2 = std::max(v2, other.v2);
-    }
+  const auto most = [&](const auto& squares) {
+    using Squares = std::array<Real, 2>;
+    const Squares out = reduce(
+        static_cast<Index>(involved_.size()), Squares{},
+        [&](Index begin, Index end) {
+          Squares all{};
+          for (Index k = begin; k < end; ++k) {
+            const Squares one = squares(static_cast<std::size_t>(k));
+            all = {std::max(all[0], one[0]), std::max(all[1], one[1])};
+          }
+          return all;
+        },
+        [](const Squares& a, const Squares& b) {
+          return Squares{std::max(a[0], b[0]), std::max(a[1], b[1])};
+        });
+    return Squares{std::sqrt(out[0]), std::sqrt(out[1])};
   };
-  const Most most = reduce(
-      static_cast<Index>(involved_.size()), Most(),
-      [&](Index begin, Index end) {
-        Most out;
-        for (Index k = begin; k < end; ++k) {
-          const auto i = static_cast<std::size_t>(k);
-          const Vec x = nodes.x.vec(involved_[i]);
-          out.take({(x - listed_at_[i]).squaredNorm(), (x - narrowed_at_[i]).squaredNorm(),
-                    nodes.v.vec(involved_[i]).squaredNorm()});
-        }
-        return out;
-      },
-      [](Most a, const Most& b) {
-        a.take(b);
-        return a;
-      });
-  closing_ = 2.2 * std::sqrt(most.v2) * std::max(clock.dt_old, soft_dt_);
+  const auto [step, speed] = most([&](std::size_t k) {
+    const Vec x = nodes.x.vec(involved_[k]), moved = x - last_at_[k];
+    last_at_[k] = x;
+    return std::array<Real, 2>{moved.squaredNorm(), nodes.v.vec(involved_[k]).squaredNorm()};
+  });
+  travelled_ += 2.01 * step;
+  closing_ = 2.2 * speed * std::max(clock.dt_old, soft_dt_);
   reach_ = std::max(least_reach * size_, closing_);
   const auto deleted = world.counters.find("deleted_elements");
   const std::int64_t count = deleted == world.counters.end() ? 0 : deleted->second;
-  if (count != eroded_count_ || !listed_once_ || reach_ + 2.01 * std::sqrt(most.listed2) > listed_reach_) {
+  const auto is_beyond_lists = [&] {
+    return reach_ + 2.01 * most([&](std::size_t k) {
+                      const Vec moved = nodes.x.vec(involved_[k]) - listed_at_[k];
+                      return std::array<Real, 2>{moved.squaredNorm(), 0};
+                    })[0] >
+           listed_reach_;
+  };
+  if (count != eroded_count_ || !listed_once_ || (fresh_ && !listed_deep_) ||
+      (reach_ + travelled_ > listed_reach_ && is_beyond_lists())) {
     eroded_count_ = count;
     listed_reach_ = reach_ + std::max(list_margin * size_, reach_ - least_reach * size_);
     list(world);
   }
-  moved_ = 1.005 * std::sqrt(most.narrowed2);
-  if (fresh_ || !narrowed_ || closing_ + 2 * moved_ > near_closing_ + near_margin_ ||
-      reach_ + 2 * moved_ > near_reach_ + near_margin_)
-    narrow(world);
 }
 
 bool NodeContact::may_touch(const World& world, const ContactNode& n, const ContactFace& f) const {
@@ -180,48 +186,61 @@ void NodeContact::list(World& world) {
   may_touch_.resize(nodes_.size());
   for_each(set_->size(), [&](Index i) { may_touch_[static_cast<std::size_t>(i)] = has_faces(node(i)); });
   const Nodes& nodes = world.nodes;
-  search_.build(boxes_around(faces_, nodes.x, r_most_ + listed_reach_, least_reach * size_));
+  search_.build(boxes_around(faces_, nodes.x, r_most_ + listed_reach_, fresh_ ? least_reach * size_ : 0,
+                             fresh_ ? 1 : late_reach));
   for_each(static_cast<Index>(involved_.size()), [&](Index k) {
     listed_at_[static_cast<std::size_t>(k)] = nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
   });
   for_each_block(set_->size(), [&](Index begin, Index end) { list_block(world, begin, end); });
-  std::vector<char> wanted(faces_.size(), 0);
-  for (const Block& b : blocks_)
-    for (const Index f : b.candidate) wanted[static_cast<std::size_t>(f)] = 1;
-  listed_.clear();
-  for (std::size_t f = 0; f < faces_.size(); ++f)
-    if (wanted[f]) listed_.push_back(static_cast<Index>(f));
-  shapes_.resize(faces_.size());
-  listed_once_ = true, narrowed_ = false;
-}
-
-// Of most nodes in most steps all candidates are too far away to be met: they have no near ones. Who may meet
-// one has all that matter to a node in touch.
-void NodeContact::narrow(const World& world) {
-  near_closing_ = closing_, near_reach_ = reach_, moved_ = 0;
-  near_margin_ = std::min(std::max(least_near_margin * size_, near_steps * closing_), listed_reach_ - reach_);
-  for_each(static_cast<Index>(listed_.size()), [&](Index k) {
-    const auto f = static_cast<std::size_t>(listed_[static_cast<std::size_t>(k)]);
-    shapes_[f] = shape_of(corners_of(faces_[f], world.nodes.x), faces_[f].corners);
-  });
-  for_each(static_cast<Index>(involved_.size()), [&](Index k) {
-    narrowed_at_[static_cast<std::size_t>(k)] = world.nodes.x.vec(involved_[static_cast<std::size_t>(k)]);
-  });
-  for_each_block(set_->size(), [&](Index begin, Index end) { narrow_block(world, begin, end); });
-  narrowed_ = !fresh_;
+  listed_once_ = true, listed_deep_ = fresh_, travelled_ = 0;
 }
 
 void NodeContact::list_block(const World& world, Index begin, Index end) {
   Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
-  b.first.clear(), b.candidate.clear();
+  b.first.clear(), b.candidate.clear(), b.touching.clear();
   for (Index i = begin; i < end; ++i) {
     b.first.push_back(static_cast<Index>(b.candidate.size()));
+    if (touches_any(i)) b.touching.push_back(i);
     if (!may_touch_[static_cast<std::size_t>(i)]) continue;
     search_.near(world.nodes.x.vec(node(i).node), [&](Index f) {
       if (may_touch(world, node(i), face(f))) b.candidate.push_back(f);
     });
   }
   b.first.push_back(static_cast<Index>(b.candidate.size()));
+  b.first_wake = -unlimited;
+  b.clear.assign(b.candidate.size(), -std::numeric_limits<float>::infinity()), b.beside = b.clear;
+  b.bounded.assign(b.first.size() - 1, -1), b.left.assign(b.bounded.size(), 0);
+  b.wake.resize(b.bounded.size()), b.known.assign(b.bounded.size(), {-1, -1, -1});
+  for (std::size_t k = 0; k < b.wake.size(); ++k)
+    b.wake[k] = b.first[k] == b.first[k + 1] && !touches_any(begin + static_cast<Index>(k)) ? unlimited
+                                                                                            : b.first_wake;
+}
+
+// Bounds of the chosen candidates as of now.
+void NodeContact::bound(const World& world, Block& b, Index i, const Vec& x) const {
+  const Field<Real>& at = world.nodes.x;
+  const Real* const positions[3] = {at.data(0), at.data(1), at.data(2)};
+  const std::size_t count = b.chosen.size();
+  b.corners.resize(count), b.distance.resize(2 * count);
+  for (std::size_t j = 0; j < count; ++j)
+    b.corners[j] = face(b.candidate[static_cast<std::size_t>(b.chosen[j])]).node.data();
+  loops_.bounds(positions, b.corners.data(), static_cast<Index>(count), x.data(), b.distance.data(),
+                b.distance.data() + count);
+  const auto rounded = [&](Real a) { return static_cast<float>(a - 1e-6 * (size_ + travelled_)); };
+  for (std::size_t j = 0; j < count; ++j) {
+    const auto c = static_cast<std::size_t>(b.chosen[j]);
+    const ContactFace& f = face(b.candidate[c]);
+    b.clear[c] = rounded(travelled_ + b.distance[j] - most_distance(i, f) - late_reach * f.depth);
+    b.beside[c] = rounded(travelled_ + b.distance[count + j]);
+  }
+}
+
+// When a node that touches nothing may next meet a face.
+Real NodeContact::next_wake(const Block& b, std::size_t k) const {
+  Real least = std::numeric_limits<Real>::infinity();
+  for (auto c = static_cast<std::size_t>(b.first[k]); c < static_cast<std::size_t>(b.first[k + 1]); ++c)
+    least = std::min<Real>(least, std::max(b.clear[c], b.beside[c]));
+  return least;
 }
 
 void NodeContact::start(World& world, const Clock& clock) {
@@ -239,22 +258,24 @@ void NodeContact::start(World& world, const Clock& clock) {
   asleep_ = false;
   follow(world, clock);
   touched_.assign(involved_.size(), 0), depths_.assign(involved_.size(), 0);
-  for (Block& b : blocks_) b.idle = b.near.empty();
-  for (int k = 0; k < most_touches; ++k)
-    for (Index i = 0; i < set_->size(); ++i)
-      if (in_touch_->data(k)[i] != 0) {
-        const auto place = static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)]);
-        touched_[place] = 1, depths_[place] = std::max(depths_[place], (*depth_)[i]);
-        blocks_[static_cast<std::size_t>(i / block_size)].idle = false;
-      }
+  for (Block& b : blocks_) {
+    b.idle = !fresh_ && b.touching.empty() && travelled_ + closing_ < b.first_wake;
+    for (const Index i : b.touching) {
+      const auto place = static_cast<std::size_t>(place_[static_cast<std::size_t>(node(i).node)]);
+      touched_[place] = 1, depths_[place] = std::max(depths_[place], (*depth_)[i]);
+    }
+  }
 }
 
 void NodeContact::block(World& world, const Clock& clock, Index begin, Index end) {
   Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
-  b.touches.clear(), b.leaked.clear();
+  b.touches.clear(), b.leaked.clear(), b.touching.clear();
   b.let_go = 0, b.jumped = 0;
   if (asleep_ || b.idle) return;
-  for (Index i = begin; i < end; ++i) touch(world, clock, b, i);
+  for (Index i = begin; i < end; ++i)
+    if (fresh_ || b.wake[static_cast<std::size_t>(i - begin)] <= travelled_ + closing_)
+      touch(world, clock, b, i);
+  b.first_wake = *std::min_element(b.wake.begin(), b.wake.end());
 }
 
 void NodeContact::finish(World& world, const Clock& clock) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/nodes/face.hpp"
+#include "contact/nodes/face_bound_loops.hpp"
 #include "contact/nodes/face_edges.hpp"
 #include "contact/nodes/penalty.hpp"
 #include "contact/nodes/touch_holder.hpp"
@@ -60,6 +61,9 @@ class NodeContact : public Force,
                     public PointForceReporter {
  public:
   static constexpr int most_touches = 3;
+  /// A node behind a face and no further behind it a step ago than this has come through it, of the depth at
+  /// which a node counts as through; and how far behind it is looked for.
+  static constexpr Real arrival_tolerance = 0.02, late_reach = 1.5 * arrival_tolerance;
 
   /// `number` counts interfaces from 1 and keeps their sets apart. Adds a set of fields to `world`.
   NodeContact(NodeContactLaw law, ContactSides sides, WallBodies bodies, int number, World& world);
@@ -89,7 +93,8 @@ class NodeContact : public Force,
   }
   bool touches_something() const { return !shares_.empty(); }
   /// Adds what a node got from all touches, in the order of touches. [ML/T2]
-  void add_force_on(Index node, Vec& force) const;
+  /// Whether there was any.
+  bool add_force_on(Index node, Vec& force) const;
   const std::vector<Index>& involved() const { return involved_; }  ///< nodes that may get some, ascending
   /// Nodes and segments of the world, 1 for those of a surface.
   struct Surface {
@@ -154,17 +159,29 @@ class NodeContact : public Force,
   struct Seen {  ///< the present candidate
     Index face = 0;
     Projection at;
-    Real d = 0;  ///< distance along the normal [L]
+    Real d = 0;        ///< distance along the normal [L]
+    bool sure = true;  ///< not beyond an edge over which the face does not reach
   };
-  struct alignas(64) Block {              ///< of tracked nodes
-    std::vector<Index> first;             ///< of each node's candidates, and the end
-    std::vector<Index> candidate;         ///< ascending
-    std::vector<Index> first_near, near;  ///< the same, of those that may matter until they are taken anew
-    bool idle = false;                    ///< none of its nodes touches anything or has anything near
+  struct alignas(64) Block {           ///< of tracked nodes
+    std::vector<Index> first;          ///< of each node's candidates, and the end
+    std::vector<Index> candidate;      ///< ascending
+    std::vector<float> clear, beside;  ///< of those: a node that touches nothing may meet the face once
+                                       ///< travelled_ + closing_, be over it once travelled_ is this [L]
+    std::vector<Real> bounded, wake;   ///< of each node: travelled_ when those were found; the least [L]
+    std::vector<unsigned char> left;   ///< of each node: faces that it might meet then
+    Real first_wake = 0;               ///< of all nodes [L]
+    bool idle = false;                 ///< none of its nodes touches or meets anything
+    std::vector<Index> touching;       ///< tracked nodes, ascending
     std::vector<Touch> touches;
-    std::vector<Index> leaked;  ///< tracked nodes
-    Index jumped = 0;           ///< touches that were suddenly deeper
-    std::vector<Seen> seen;     ///< scratch
+    std::vector<Index> leaked;                           ///< tracked nodes
+    Index jumped = 0;                                    ///< touches that were suddenly deeper
+    std::vector<Seen> seen;                              ///< scratch
+    std::vector<std::array<Index, most_touches>> known;  ///< of each node: touched faces all around which
+                                                         ///< are candidates, if nodes may touch them
+    std::vector<Index> faces;                            ///< scratch: that may matter
+    std::vector<Index> chosen;                           ///< scratch: positions in `candidate`
+    std::vector<const Index*> corners;                   ///< scratch: of those, and their bounds
+    std::vector<Real> distance;
     Real damping_work = 0, friction_work = 0;
     Real let_go = 0;  ///< energy of touches that end by a leak or with faces that are deleted [ML2/T2]
   };
@@ -175,11 +192,12 @@ class NodeContact : public Force,
 
   void follow(World& world, const Clock& clock);
   void list(World& world);
-  void narrow(const World& world);
-  void narrow_block(const World& world, Index begin, Index end);
-  bool touches_any(Index i) const;
+  bool touches_any(Index i) const {
+    for (int k = 0; k < most_touches; ++k)
+      if (in_touch_->data(k)[i] != 0) return true;
+    return false;
+  }
   Real idle_reach(const ContactFace& f) const;
-  bool may_reach(Index face, const Vec& x, Real reach) const;
   void list_block(const World& world, Index begin, Index end);
   void take_involved(const World& world);
   void find_sizes();
@@ -187,7 +205,11 @@ class NodeContact : public Force,
   bool may_touch(const World& world, const ContactNode& node, const ContactFace& face) const;
   void touch(World& world, const Clock& clock, Block& b, Index i);
   void look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const;
-  bool goes_on_at(const Slots& slots, const ContactFace& f) const;
+  void choose(Block& b, Index i, const Slots& slots, bool idle, bool around) const;
+  void add_missing(const World& world, Block& b, Index i, const Slots& slots) const;
+  void see(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, bool around) const;
+  void bound(const World& world, Block& b, Index i, const Vec& x) const;
+  Real next_wake(const Block& b, std::size_t k) const;
   bool is_lost(const World& world, const Block& b, Index i) const;
   bool is_undecided(const Block& b, Index i) const;
   bool hold(const World& world, Block& b, Index i, const Vec& x, const Slots& slots, Slot& slot) const;
@@ -226,7 +248,11 @@ class NodeContact : public Force,
   void let_go(const World& world, Block& b, Index i, const Vec& x, Slots& slots) const;
   bool take(const World& world, Index i, const Slot& slot, Slots& slots) const;
   bool jumps(const World& world, const Clock& clock, Index i, const Slot& slot, Index face_before) const;
-  bool is_taken(const Slots& slots, Index face) const;
+  bool is_taken(const Slots& slots, Index face) const {
+    for (const Slot& slot : slots)
+      if (slot.face == face) return true;
+    return false;
+  }
   bool goes_on(const Slots& slots, const Seen& seen) const;
   void give_stiffness(const World& world, Index i, Slot& slot) const;
   void fade(const World& world, const Slot& slot, Touch& touch) const;
@@ -239,8 +265,15 @@ class NodeContact : public Force,
   void sum_springs_of_bodies(const World& world, const Clock& clock);
   Real part_of(const World& world, const Clock& clock, const Touch& touch, Real speed,
                const std::array<Real, 2>& mobility) const;
-  Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const;
-  Real mass_of(const World& world, Index node) const;
+  Vec velocity_of_face(const World& world, const ContactFace& f, const std::array<Real, 4>& N) const {
+    Vec v = Vec::Zero();
+    for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
+      v += N[e] * world.nodes.v.vec(f.node[e]);
+    return v;
+  }
+  Real mass_of(const World& world, Index n) const {
+    return world.nodes.held[n] ? std::numeric_limits<Real>::infinity() : world.nodes.m[n];
+  }
   Real share_of(const Share& share) const;
   Vec force_of(const Share& share) const;
   Slot load(Index i, int k) const;
@@ -273,22 +306,21 @@ class NodeContact : public Force,
   Real reach_ = 0;         ///< faces further away than the contact distance and this are left alone [L]
   Real listed_reach_ = 0;  ///< of the lists [L]
   Real closing_ = 0;       ///< no node and face come nearer within a step [L]
-  Real near_margin_ = 0;   ///< of near candidates: what nodes may come nearer until they are taken anew [L]
-  Real near_closing_ = 0, near_reach_ = 0;  ///< closing_ and reach_ for which they were taken [L]
-  Real moved_ = 0;                          ///< no node by more since then [L]
-  std::vector<Index> involved_;             ///< nodes of World, tracked or corners, ascending
-  std::vector<Index> place_;                ///< of each node of World in involved_, or -1
+  Real travelled_ = 0;     ///< no node and face came nearer by more since lists were made [L]
+  Real most_depth_ = 0;    ///< of faces [L]
+  FaceBoundLoops loops_ = face_bound_loops();
+  std::vector<Index> involved_;  ///< nodes of World, tracked or corners, ascending
+  std::vector<Index> place_;     ///< of each node of World in involved_, or -1
   // by body, of touches a step ago, and of those due soon: stiffness; along their pushes; its moment about 0
   std::vector<Real> body_springs_;          ///< [M/T2]
   std::vector<Vec> body_push_, body_turn_;  ///< [M/T2], [ML/T2]
   std::vector<Real> depths_;                ///< of those nodes, a step ago [L]
   std::vector<char> touched_;               ///< of those: a tracked node that touched something a step ago
   std::vector<Vec> listed_at_;              ///< where those were when lists were made
-  std::vector<Vec> narrowed_at_;            ///< and when near candidates were taken
-  std::vector<Index> listed_;               ///< faces that are candidates, ascending
-  std::vector<FaceShape> shapes_;           ///< of those, by face, when near candidates were taken
-  bool listed_once_ = false, narrowed_ = false;
-  bool fresh_ = true;  ///< nodes may be behind faces without having come through them
+  std::vector<Vec> last_at_;                ///< and a step ago
+  bool listed_once_ = false;
+  bool listed_deep_ = false;  ///< all faces as far as they are deep, not those around touched ones alone
+  bool fresh_ = true;         ///< nodes may be behind faces without having come through them
   bool asleep_ = false;
   Real soft_dt_ = 0;         ///< longest step so far [T]
   bool first_step_ = false;  ///< of the run: from now on SOFT 1 has a step

@@ -58,18 +58,6 @@ Real NodeContact::part_of(const World& world, const Clock& clock, const Touch& t
   return part_of_step(touch.depth, speed, clock.dt_old, omega2);
 }
 
-Vec NodeContact::velocity_of_face(const World& world, const ContactFace& f,
-                                  const std::array<Real, 4>& N) const {
-  Vec v = Vec::Zero();
-  for (std::size_t e = 0; e < static_cast<std::size_t>(f.corners); ++e)
-    v += N[e] * world.nodes.v.vec(f.node[e]);
-  return v;
-}
-
-Real NodeContact::mass_of(const World& world, Index n) const {
-  return world.nodes.held[n] ? unbounded : world.nodes.m[n];
-}
-
 // The face's, and the share that the node has in the faces around it, as far as they look at the touched one:
 // so that equal pressure makes equal depth up to the edges of a body. SOFT 1: at least what the step and the
 // masses allow.
@@ -182,8 +170,8 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
 // step that led there, which would not be bounded else.
 void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index i,
                          const Slots& slots) const {
-  Slot next;
-  Real soonest = soft_dt_ > 0 ? soft_dt_ : unbounded;
+  const Seen* first = nullptr;
+  Real soonest = soft_dt_ > 0 ? soft_dt_ : unbounded, its_side = 1;
   for (const Seen& seen : b.seen) {
     if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
     const ContactFace& f = face(seen.face);
@@ -193,10 +181,12 @@ void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index
     const Vec v = world.nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N);
     const Real closing = -side * seen.at.n.dot(v);
     if (!(closing > 0 && gap < closing * soonest)) continue;
-    soonest = gap / closing;
-    next.face = seen.face, next.at = seen.at, next.side = side, next.n = side * seen.at.n;
+    if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
+    soonest = gap / closing, first = &seen, its_side = side;
   }
-  if (next.face < 0) return;
+  if (!first) return;
+  Slot next;
+  next.face = first->face, next.at = first->at, next.side = its_side, next.n = its_side * first->at.n;
   give_stiffness(world, i, next);
   Touch touch;
   touch.node = node(i).node, touch.face = next.face, touch.pass = node(i).pass;

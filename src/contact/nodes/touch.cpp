@@ -10,9 +10,6 @@ namespace courant {
 
 namespace {
 
-/// Who is behind a face and was no further behind it a step ago than this has come through it, of the depth
-/// at which a node counts as through.
-constexpr Real arrival_tolerance = 0.02;
 /// A touch that goes on to another face may be deeper there by this, of a usual face.
 constexpr Real step_in_depth = 1e-3;
 /// What is less deep at the start is rounding, of a usual face.
@@ -25,11 +22,22 @@ constexpr Real rounding = 1e-9;
 constexpr Real rise = 0.25;
 /// Along faces that meet at less than this angle (cosine) a node goes on with the nearest.
 constexpr Real bent = 0.5;
-/// What a face reaches beyond its corners (edge_margin), and by which it is off their mean plane there, of
-/// its radius; with rounding.
-constexpr Real edge_slack = 0.05, off_plane = 0.005;
+/// Bounds are found again when so many more faces may be met than were left then; of a node that meets
+/// faces, but touches none, after so many steps.
+constexpr std::size_t few_faces = 1;
+constexpr Real idle_steps = 3;
 /// Neighbours whose normals differ by less go on in one another (cosine).
 constexpr Real smooth = 0.866;
+
+/// Whether a node touches the face, or one that shares a corner with it.
+template <class Slots>
+bool goes_on_at(const FaceEdges& edges, const Slots& slots, Index face) {
+  return std::any_of(slots.begin(), slots.end(), [&](const auto& slot) {
+    if (slot.face < 0) return false;
+    const auto around = edges.around(slot.face);
+    return face >= around.front() && std::binary_search(around.begin(), around.end(), face);
+  });
+}
 
 }  // namespace
 
@@ -42,103 +50,128 @@ bool NodeContact::goes_on(const Slots& slots, const Seen& seen) const {
   return false;
 }
 
-bool NodeContact::is_taken(const Slots& slots, Index face) const {
-  for (const Slot& slot : slots)
-    if (slot.face == face) return true;
-  return false;
-}
-
-// Whether the node touches the face, or one that shares a corner with it.
-bool NodeContact::goes_on_at(const Slots& slots, const ContactFace& f) const {
-  for (const Slot& slot : slots)
-    if (slot.face >= 0 && face(slot.face).shared(f) > 0) return true;
-  return false;
-}
-
-bool NodeContact::touches_any(Index i) const {
-  for (int k = 0; k < most_touches; ++k)
-    if (in_touch_->data(k)[i] != 0) return true;
-  return false;
-}
-
 // How far from a face a node that touches nothing may meet it within a step; also from behind, where it may
 // arrive late.
 Real NodeContact::idle_reach(const ContactFace& f) const {
-  return closing_ + 1.5 * arrival_tolerance * f.depth;
+  return closing_ + late_reach * f.depth;
 }
 
-// Whether a face, as it was when near candidates were taken, may be nearer to a place than `reach`.
-bool NodeContact::may_reach(Index face, const Vec& x, Real reach) const {
-  const FaceShape& shape = shapes_[static_cast<std::size_t>(face)];
-  const Vec w = x - shape.centre;
-  const Real around = 1.05 * shape.radius + reach;
-  return w.squaredNorm() <= around * around && distance_from_box(shape, w, edge_slack * shape.radius) <=
-                                                   reach + off_plane * shape.radius + edge_slack * shape.warp;
-}
-
-void NodeContact::narrow_block(const World& world, Index begin, Index end) {
-  Block& b = blocks_[static_cast<std::size_t>(begin / block_size)];
-  b.first_near.clear(), b.near.clear();
-  for (Index i = begin; i < end; ++i) {
-    b.first_near.push_back(static_cast<Index>(b.near.size()));
-    const Vec x = world.nodes.x.vec(node(i).node);
-    const auto k = static_cast<std::size_t>(i - begin);
-    const auto first = b.candidate.begin() + b.first[k], last = b.candidate.begin() + b.first[k + 1];
-    const auto within = [&](Index s, Real reach) {
-      return may_reach(s, x, most_distance(i, face(s)) + reach + near_margin_);
-    };
-    if (!fresh_ && !touches_any(i) &&
-        std::none_of(first, last, [&](Index s) { return within(s, idle_reach(face(s))); }))
-      continue;
-    std::copy_if(first, last, std::back_inserter(b.near),
-                 [&](Index s) { return within(s, std::max(reach_, face(s).depth)); });
-  }
-  b.first_near.push_back(static_cast<Index>(b.near.size()));
-}
-
-// Candidates within reach, at the places of now: lists may hold more, or not, with the same result. Faces
-// that the node touches and their neighbours are seen as far behind as touches may be, so that it finds where
-// they go on; others not, which in a heap of bodies are many. To a node that touches nothing only faces that
-// it is over matter.
+// Candidates within reach, at the positions of now: lists may hold more, or not, with the same result. Mostly
+// only faces that the node is over matter. A node beside the face that it touches needs the nearest points of
+// that and its neighbours, too, as far behind as touches may be, so that it finds where they go on; not of
+// others, which in a heap of bodies are many.
 void NodeContact::look(const World& world, Block& b, Index i, const Vec& x, const Slots& slots) const {
-  b.seen.clear();
   const auto k = static_cast<std::size_t>(i % block_size);
   const bool idle =
       !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
-  for (Index c = b.first_near[k]; c < b.first_near[k + 1]; ++c) {
-    const Index s = b.near[static_cast<std::size_t>(c)];
-    const ContactFace& f = face(s);
-    const bool deep = fresh_ || goes_on_at(slots, f);
-    const Real reach = most_distance(i, f) + (idle   ? idle_reach(f)
-                                              : deep ? std::max(reach_, f.depth)
-                                                     : reach_);
-    if (!may_reach(s, x, reach + moved_)) continue;
-    Seen& seen = b.seen.emplace_back();
-    seen.face = s;
-    const FaceCorners corners = corners_of(f, world.nodes.x);
-    seen.at = (idle ? project_over : project)(corners, f.corners, x);
-    if (seen.at.over && !is_over(world, i, s, seen.at))
-      seen.at = idle ? Projection() : project_on_rim(corners, f.corners, x);
-    seen.d = seen.at.n.dot(x - seen.at.q);
-    if ((idle && !seen.at.over) || (x - seen.at.q).squaredNorm() > reach * reach) b.seen.pop_back();
+  choose(b, i, slots, idle, fresh_);
+  const std::size_t least = b.left[k] + (idle ? 0 : few_faces);
+  if (b.chosen.size() > least || (idle && travelled_ > b.bounded[k] + idle_steps * closing_)) {
+    bound(world, b, i, x);
+    choose(b, i, slots, idle, fresh_);
+    b.left[k] = static_cast<unsigned char>(std::min<std::size_t>(b.chosen.size(), 255));
+    b.bounded[k] = travelled_;
+    if (idle) b.wake[k] = next_wake(b, k);
   }
+  b.seen.clear();
+  see(world, b, i, x, slots, fresh_);
+  const auto settled = [&](const Slot& slot) {
+    return slot.face < 0 || std::any_of(b.seen.begin(), b.seen.end(), [&](const Seen& seen) {
+             return seen.face == slot.face && seen.at.inside;
+           });
+  };
+  if (fresh_ || std::all_of(slots.begin(), slots.end(), settled)) return;
+  choose(b, i, slots, false, true);
+  see(world, b, i, x, slots, true);
+}
+
+// Candidates that may matter. `around`: those that share corners with touched faces also where the node is
+// not over them.
+void NodeContact::choose(Block& b, Index i, const Slots& slots, bool idle, bool around) const {
+  const auto k = static_cast<std::size_t>(i % block_size);
+  const Real near = travelled_ + (idle ? closing_ : reach_),
+             far = idle ? near : std::max(near, travelled_ + most_depth_);
+  b.chosen.clear();
+  for (Index c = b.first[k]; c < b.first[k + 1]; ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const bool over = b.beside[at] <= travelled_;
+    if (!(over || around) || b.clear[at] > far) continue;
+    if ((over && b.clear[at] <= near) || fresh_ || goes_on_at(edges_, slots, b.candidate[at]))
+      b.chosen.push_back(c);
+  }
+}
+
+// Of the faces around those that the node touches, those that were too far away for its list.
+void NodeContact::add_missing(const World& world, Block& b, Index i, const Slots& slots) const {
+  if (fresh_ || !may_touch_[static_cast<std::size_t>(i)]) return;
+  const auto k = static_cast<std::size_t>(i % block_size);
+  const auto first = b.candidate.begin() + b.first[k], last = b.candidate.begin() + b.first[k + 1];
+  const std::size_t listed = b.faces.size();
+  for (std::size_t j = 0; j < slots.size(); ++j) {
+    const Index touched = slots[j].face;
+    if (touched < 0 || touched == b.known[k][j]) continue;
+    const std::size_t before = b.faces.size();
+    for (const Index g : edges_.around(touched))
+      if (!std::binary_search(first, last, g) && may_touch(world, node(i), face(g))) b.faces.push_back(g);
+    if (b.faces.size() == before) b.known[k][j] = touched;
+  }
+  if (b.faces.size() == listed) return;
+  std::sort(b.faces.begin(), b.faces.end());
+  b.faces.erase(std::unique(b.faces.begin(), b.faces.end()), b.faces.end());
+}
+
+void NodeContact::see(const World& world, Block& b, Index i, const Vec& x, const Slots& slots,
+                      bool around) const {
+  const bool idle =
+      !fresh_ && std::none_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face >= 0; });
+  const auto before = static_cast<std::ptrdiff_t>(b.seen.size());
+  b.faces.clear();
+  for (const Index c : b.chosen) b.faces.push_back(b.candidate[static_cast<std::size_t>(c)]);
+  if (!idle) add_missing(world, b, i, slots);
+  const bool all_chosen = b.faces.size() == b.chosen.size();
+  for (std::size_t j = 0; j < b.faces.size(); ++j) {
+    const Index s = b.faces[j];
+    const ContactFace& f = face(s);
+    const FaceCorners corners = corners_of(f, world.nodes.x);
+    const auto is_deep = [&] { return fresh_ || goes_on_at(edges_, slots, s); };
+    const bool whole = around && is_deep();
+    Seen seen;
+    seen.face = s;
+    const auto last = std::find_if(b.seen.begin(), b.seen.begin() + before,
+                                   [&](const Seen& other) { return other.face == s; });
+    if (last != b.seen.begin() + before)
+      seen.at = last->at;
+    else if (whole && all_chosen && b.beside[static_cast<std::size_t>(b.chosen[j])] > travelled_)
+      seen.at = project_on_rim(corners, f.corners, x);
+    else
+      seen.at = (whole ? project : project_over)(corners, f.corners, x);
+    seen.sure = around || seen.at.beyond == 0;
+    if (around && seen.at.over && !is_over(world, i, s, seen.at))
+      seen.at = whole ? project_on_rim(corners, f.corners, x) : Projection();
+    if (!whole && !seen.at.over) continue;
+    const Real reach = most_distance(i, f) + (idle                 ? idle_reach(f)
+                                              : whole || is_deep() ? std::max(reach_, f.depth)
+                                                                   : reach_);
+    if ((x - seen.at.q).squaredNorm() > reach * reach) continue;
+    seen.d = seen.at.n.dot(x - seen.at.q);
+    b.seen.push_back(seen);
+  }
+  b.seen.erase(b.seen.begin(), b.seen.begin() + before);
 }
 
 void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   const auto c = static_cast<std::size_t>(i % block_size);
-  const bool any = touches_any(i);
-  if (!any && b.first_near[c] == b.first_near[c + 1]) return;
   const Vec x = world.nodes.x.vec(node(i).node);
   Slots slots;
-  if (any)
-    for (int k = 0; k < most_touches; ++k) slots[static_cast<std::size_t>(k)] = load(i, k);
+  for (int k = 0; k < most_touches; ++k)
+    if (in_touch_->data(k)[i] != 0) slots[static_cast<std::size_t>(k)] = load(i, k);
   look(world, b, i, x, slots);
   if (eroded_) let_go(world, b, i, x, slots);
   for (Slot& slot : slots)
     if (slot.face >= 0 && !hold(world, b, i, x, slots, slot)) slot = Slot();
   for (int k = 0; k < most_touches; ++k) {
     Slot& slot = slots[static_cast<std::size_t>(k)];
-    if (slot.face < 0 || !jumps(world, clock, i, slot, load(i, k).face)) continue;
+    if (slot.face < 0 || !jumps(world, clock, i, slot, in_touch_->data(k)[i] - 1)) continue;
     slot.slack = -slot.gap - std::max((*depth_)[i], Real(0));
     ++b.jumped;
   }
@@ -148,11 +181,17 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
   if (std::any_of(slots.begin(), slots.end(), [](const Slot& slot) { return slot.face < 0; }))
     expect(world, clock, b, i, slots);
   Real depth = 0;
+  bool touches = false;
   for (int k = 0; k < most_touches; ++k) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
-    if (any || slot.face >= 0) store(i, k, slot);
-    if (slot.face >= 0) depth = std::max(depth, -slot.gap - slot.slack);
+    if (in_touch_->data(k)[i] != 0 || slot.face >= 0) store(i, k, slot);
+    if (slot.face < 0) continue;
+    depth = std::max(depth, -slot.gap - slot.slack), touches = true;
   }
+  if (touches)
+    b.touching.push_back(i), b.wake[c] = -std::numeric_limits<Real>::infinity();
+  else if (b.wake[c] < 0)
+    b.wake[c] = next_wake(b, c);
   (*depth_)[i] = depth;
 }
 
@@ -161,10 +200,11 @@ void NodeContact::touch(World& world, const Clock& clock, Block& b, Index i) {
 // faces.
 bool NodeContact::jumps(const World& world, const Clock& clock, Index i, const Slot& slot,
                         Index face_before) const {
-  const Vec moved =
-      (world.nodes.v.vec(node(i).node) - velocity_of_face(world, face(slot.face), slot.at.N)) * clock.dt_old;
   const Real tolerated =
       slot.face == face_before ? arrival_tolerance * face(slot.face).depth : step_in_depth * size_;
+  if (!(-slot.gap - slot.slack > std::max((*depth_)[i], Real(0)) + tolerated)) return false;
+  const Vec moved =
+      (world.nodes.v.vec(node(i).node) - velocity_of_face(world, face(slot.face), slot.at.N)) * clock.dt_old;
   return -slot.gap - slot.slack > std::max((*depth_)[i], Real(0)) + 2 * moved.norm() + tolerated;
 }
 
@@ -407,12 +447,18 @@ bool NodeContact::take(const World& world, Index i, const Slot& slot, Slots& slo
 
 void NodeContact::find_touches(const World& world, const Clock& clock, const Block& b, Index i,
                                Slots& slots) const {
+  const auto is_new = [&](const Seen& seen) {
+    return seen.at.over && !is_taken(slots, seen.face) && !goes_on(slots, seen);
+  };
+  if (std::none_of(b.seen.begin(), b.seen.end(), is_new)) return;
   std::array<Slot, most_touches> found;
   int count = 0;
   for (const Seen& seen : b.seen) {
-    if (!seen.at.over || is_taken(slots, seen.face) || goes_on(slots, seen)) continue;
+    if (!is_new(seen)) continue;
     Slot slot;
-    if (!arrives(world, clock, i, seen, slot) || grazes(world, i, slot.face, slot.at.q, slot.n)) continue;
+    if (!arrives(world, clock, i, seen, slot)) continue;
+    if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
+    if (grazes(world, i, slot.face, slot.at.q, slot.n)) continue;
     // the deepest first, of nodes that start there the least deep one, late ones last; of equals the first
     // face
     int at = count;
