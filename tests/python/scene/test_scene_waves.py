@@ -164,8 +164,8 @@ def test_wave_makers_that_turn_or_absorb_have_a_card_of_their_own() -> None:
     np.testing.assert_allclose(curves[0], made.displacement(6), rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(curves[1], made.at_paddle(6, 4 * SPACING), rtol=1e-9, atol=1e-12)
     assert numbers[:8] == [12, 1, 901, 1, 902, 0.5, 9.81, 0.1] and numbers[8:14] == [0, 0, 0, 1, 0, 0]
-    absorption = made.absorption(4 * SPACING, 2.8)
-    assert numbers[14:18] == pytest.approx([absorption.factor, 4 * SPACING, absorption.delay, 2.8], rel=1e-6)
+    absorption = made.absorption(4 * SPACING, 1.4)
+    assert numbers[14:18] == pytest.approx([absorption.factor, 4 * SPACING, absorption.delay, 1.4], rel=1e-6)
     top = (1 - 0.1) / 0.4  # the upper edge goes farther than the still level
     assert numbers[18] == pytest.approx(0.3 / top + made.displacement(6)[:, 1].min(), rel=1e-6)
     deck = flume(maker="flap", hinge=0.1, absorb=True).deck()
@@ -175,11 +175,16 @@ def test_wave_makers_that_turn_or_absorb_have_a_card_of_their_own() -> None:
     np.testing.assert_allclose(back[0], Waves("regular", depth=0.5, height=0.08, period=1.4).displacement(6), rtol=1e-9, atol=1e-12)
 
 
+def test_drift_goes_back_within_a_period_and_two_of_a_spectrum() -> None:
+    for waves, drift in ((REGULAR, 1.4), (REGULAR | {"kind": "second_order"}, 1.4), (IRREGULAR, 2.8), (REGULAR | {"drift": 5}, 5)):
+        assert wave_maker(flume(**waves, absorb=True))[0][17] == pytest.approx(drift)
+
+
 def test_a_paddle_at_rest_absorbs() -> None:
     numbers, curves = wave_maker(flume(kind="still", height=None, absorb=True))
     assert numbers[:6] == [12, 0, 0, 1, 0, 0.5] and not curves
-    absorption = Waves("regular", depth=0.5, height=0.01, period=1.4).absorption(2 * SPACING, 2.8)
-    assert numbers[14:18] == pytest.approx([absorption.factor, 2 * SPACING, absorption.delay, 2.8], rel=1e-6)
+    absorption = Waves("regular", depth=0.5, height=0.01, period=1.4).absorption(2 * SPACING, 1.4)
+    assert numbers[14:18] == pytest.approx([absorption.factor, 2 * SPACING, absorption.delay, 1.4], rel=1e-6)
     assert wave_maker(flume(kind="still", height=None, period=None, absorb=True))[0][14:18] == pytest.approx([1, 2 * SPACING, 0, 0])
 
 

@@ -32,7 +32,9 @@ _USED = {
     "still": ("period",),
 }
 _FLAPS = ("regular", "focused", "jonswap", "pierson_moskowitz", "elevation", "still")
-_DRIFT = 2.0  # periods in which the drift of absorption goes back
+# Periods in which the drift of absorption goes back. Its filter shifts other waves than those of the period: of a spectrum more may be among them.
+_DRIFT = {"regular": 1.0, "second_order": 1.0, "still": 1.0}
+_DRIFT_OF_OTHERS = 2.0
 _AWAY = {"piston": 2.0, "flap": 4.0}  # spacings from the paddle to the level that it measures: h, and the support of the kernel
 _KEYS = keys_of_map(
     "waves",
@@ -119,7 +121,7 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float, spac
             return None
         try:  # of waves that come there; without a period: long ones
             period = numbers.get("period", 0.0)
-            back = _DRIFT * period if drift is None else drift
+            back = _DRIFT[kind] * period if drift is None else drift
             absorption = Waves("regular", depth, 1e-6 * depth, period, gravity, maker=maker, hinge=hinge).absorption(away, back) if "period" in numbers else Absorption(1.0, 0.0)
         except WaveFault as fault:
             reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
@@ -137,7 +139,7 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float, spac
     except WaveFault as fault:
         reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
         return None
-    back = _DRIFT * waves.period if drift is None else drift
+    back = _DRIFT.get(kind, _DRIFT_OF_OTHERS) * waves.period if drift is None else drift
     absorption = waves.absorption(away, back) if absorbs else Absorption(0.0, 0.0)
     return Piston(axis, sign, np.column_stack([made[:, 0], sign * made[:, 1]]), depth, where, where_towards, maker, hinge, absorption.factor, absorption.delay, away,
                   back, elevation)
