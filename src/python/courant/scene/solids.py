@@ -202,7 +202,8 @@ def wave_maker_cards(basin: Basin, solid: Solid, first_curve: int) -> tuple[str,
     card = substitute(_WAVE_MAKER, {
         "pid": float(solid.part), "flap": float(piston.maker == "flap"), "lcid": float(lcid), "lceta": float(lceta), "depth": piston.depth, "g": basin.gravity,
         "hinge": piston.hinge, "x": at[0], "y": at[1], "z": at[2], "vx": towards[0], "vy": towards[1], "vz": towards[2], "absorb": piston.absorb,
-        "dist": piston.away if piston.absorb > 0 else 0.0, "tau": piston.delay, "tdrift": piston.drift if piston.absorb > 0 else 0.0, "xmax": min(piston.space, piston.depth) if piston.space > 0 else 0.0})
+        "dist": piston.away if piston.absorb > 0 else 0.0, "tau": piston.delay,
+        "tdrift": piston.drift if piston.absorb > 0 else 0.0, "xmax": min(piston.space, piston.depth) if piston.space > 0 else 0.0})
     return card + curves, 2
 
 

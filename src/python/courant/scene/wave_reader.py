@@ -122,7 +122,9 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float, spac
         try:  # of waves that come there; without a period: long ones
             period = numbers.get("period", 0.0)
             back = _DRIFT[kind] * period if drift is None else drift
-            absorption = Waves("regular", depth, 1e-6 * depth, period, gravity, maker=maker, hinge=hinge).absorption(away, back) if "period" in numbers else Absorption(1.0, 0.0)
+            absorption = Absorption(1.0, 0.0)
+            if "period" in numbers:
+                absorption = Waves("regular", depth, 1e-6 * depth, period, gravity, maker=maker, hinge=hinge).absorption(away, back)
         except WaveFault as fault:
             reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
             return None
@@ -134,8 +136,8 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float, spac
         made = waves.displacement(end)
         elevation = waves.at_paddle(end, away) if absorbs else np.empty((0, 2))
         if focus is not None and focus[0] > (gone := waves.group_velocity() * focus[1]):
-            reader.diagnostics.warning(reader.at(focus_node or node), f"focus: waves of the period go {gone:.3g} in the time {shortest(focus[1])}: they do not meet at {shortest(focus[0])}",
-                                       "a later time, or a smaller distance")
+            what = f"focus: waves of the period go {gone:.3g} in the time {shortest(focus[1])}: they do not meet at {shortest(focus[0])}"
+            reader.diagnostics.warning(reader.at(focus_node or node), what, "a later time, or a smaller distance")
     except WaveFault as fault:
         reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
         return None
@@ -219,7 +221,8 @@ def _record(reader: BasinReader, node: Node, kind: str, end: float) -> np.ndarra
             reader.error(entry, f"record: line {number} of '{name}' is '{line.strip()[:40]}'", _RECORD)
             return None
         if len(values) != 2 or not all(math.isfinite(value) for value in values):
-            reader.error(entry, f"record: line {number} of '{name}' has {len(values)} numbers" if len(values) != 2 else f"record: line {number} of '{name}' has no finite numbers", _RECORD)
+            has = f"{len(values)} numbers" if len(values) != 2 else "no finite numbers"
+            reader.error(entry, f"record: line {number} of '{name}' has {has}", _RECORD)
             return None
         if rows and not values[0] > rows[-1][0]:
             reader.error(entry, f"record: line {number} of '{name}' has time {shortest(values[0])} after {shortest(rows[-1][0])}", "times go upwards")
@@ -230,6 +233,6 @@ def _record(reader: BasinReader, node: Node, kind: str, end: float) -> np.ndarra
         return None
     if rows[0][0] > 0 or (end > rows[-1][0]):
         kept = "the record repeats before and after" if kind == "elevation" else "its first and last value hold before and after"
-        reader.diagnostics.warning(reader.at(entry), f"record: '{name}' has times {shortest(rows[0][0])} to {shortest(rows[-1][0])}, the run 0 to {shortest(end)}: {kept}",
-                                   "a record from 0 to the end of the run")
+        times = f"{shortest(rows[0][0])} to {shortest(rows[-1][0])}"
+        reader.diagnostics.warning(reader.at(entry), f"record: '{name}' has times {times}, the run 0 to {shortest(end)}: {kept}", "a record from 0 to the end of the run")
     return np.array(rows)
