@@ -25,9 +25,17 @@ struct GaugeView {
   const std::vector<RigidBodyMotion>& bodies;
   std::span<const PointForce> forces{};  ///< where a gauge takes them
   BodyAcceleration::At loads{};
+  bool uniform_loads = false;              ///< the same everywhere, for all parts
   std::span<const GhostPlane> periodic{};  ///< planes of which the far sides are near, too
   /// Kernel of particle i at a distance r. [1/L^dim]
   Real weight(Index i, Real r) const;
+  /// The same for loops that know the kernel `k` of `with_kernel`.
+  template <class Kernel>
+  Real weight_of(Kernel k, Index i, Real r) const {
+    const Real per_h = 1 / world.particles.h[i], R = r * per_h;
+    if (R >= Kernel::support) return 0;
+    return Kernel::C(world.dim) * k.shape(R) * (world.dim == 2 ? per_h * per_h : per_h * per_h * per_h);
+  }
   Real reach(Index i) const { return kernel_support(kernel) * world.particles.h[i]; }
   Real volume(Index i) const { return world.particles.m[i] / world.particles.rho[i]; }
   /// Distance between particles of the size of particle i. [L]

@@ -60,72 +60,75 @@ class PointGauge : public Gauge {
   std::vector<Real> measure(const GaugeView& view, std::span<const NearParticle> near) const override {
     const Vec x = position(view);
     std::vector<Real> out(6, std::numeric_limits<Real>::quiet_NaN());
-    bool wet = false;
-    const std::vector<Seen> seen = look(view, near, x, wet);
-    out[0] = wet ? 1 : 0;
-    if (wet) sum_up(view, x, seen, out);
+    const Sums sums = with_kernel(view.kernel, [&](auto kernel) {
+      return view.world.dim == 2 ? summed<2>(kernel, view, near, x) : summed<3>(kernel, view, near, x);
+    });
+    out[0] = sums.wet ? 1 : 0;
+    if (sums.wet) finish(sums, view.world.dim, out);
     if (body_ >= 0) out.insert(out.end(), {x.x(), x.y(), x.z()});
     return out;
   }
 
  private:
-  struct Seen {
-    Index i;
-    Vec d;   ///< from the point to the particle [L]
-    Real w;  ///< V W [-]
+  /// Over particles, w = V W and q = (1, d/h) with d from the point to the particle. A field is linear in the
+  /// coefficients of its base, so one loop has the sums for both.
+  struct Sums {
+    bool wet = false;
+    std::array<std::array<Real, 4>, 4> A{};  ///< w q q^T, its lower part
+    std::array<std::array<Real, 4>, 4> f{};  ///< w q times velocity (0 to 2) and density (3)
+    Real pressure = 0;                       ///< w (p - rho g . d)
   };
   Vec position(const GaugeView& view) const {
     if (body_ < 0) return view.flat(point_);
     const RigidBodyMotion& body = view.bodies[static_cast<std::size_t>(body_)];
     return view.flat(body.x + body.axes * local_);
   }
-  /// `wet`: whether the point is within the cell of some particle: half the diagonal of a cube, and a little
-  /// for particles that are not on a lattice; or in a gap between particles that surround it: sum V W, 0.5
-  /// at a surface, is larger there.
-  static std::vector<Seen> look(const GaugeView& view, std::span<const NearParticle> near, const Vec& x,
-                                bool& wet) {
-    const Real half = 1.15 * 0.5 * std::sqrt(Real(view.world.dim));
+  /// Wet: the point is within the cell of some particle: half the diagonal of a cube, and a little for
+  /// particles that are not on a lattice; or in a gap between particles that surround it: sum V W, 0.5 at a
+  /// surface, is larger there.
+  template <int dim, class Kernel>
+  static Sums summed(Kernel kernel, const GaugeView& view, std::span<const NearParticle> near, const Vec& x) {
+    const Real half = 1.15 * 0.5 * std::sqrt(Real(dim));            // of the spacing
+    const Real cell = dim == 2 ? half * half : half * half * half;  // of the volume
     constexpr Real surrounded = 0.65;
-    Real sum = 0;
-    std::vector<Seen> seen;
-    seen.reserve(near.size());
+    const Particles& p = view.world.particles;
+    const Real *m = p.m.data(), *rho = p.rho.data(), *h = p.h.data(), *pressure = p.p.data();
+    const std::array v{p.v.data(0), p.v.data(1), p.v.data(2)};
+    const Vec everywhere = view.loads.everywhere();
+    Sums sums;
     for (const auto& [i, at] : near) {
       const Vec d = at - x;
-      const Real r = d.norm();
-      if (r >= view.reach(i)) continue;
-      seen.push_back({i, d, view.volume(i) * view.weight(i, r)});
-      sum += seen.back().w;
-      wet = wet || r <= half * view.spacing(i);
+      const Real r = d.norm(), V = m[i] / rho[i], w = V * view.weight_of(kernel, i, r);
+      if (w == 0) continue;
+      sums.wet = sums.wet || (dim == 2 ? r * r : r * r * r) <= cell * V;
+      const Vec g = view.uniform_loads ? everywhere : view.loads(at, p.part[i]);
+      sums.pressure += w * (pressure[i] - rho[i] * g.dot(d));
+      const Real per_h = 1 / h[i];
+      std::array<Real, dim + 1> q{1};
+      for (int k = 0; k < dim; ++k) q[static_cast<std::size_t>(k + 1)] = d[k] * per_h;
+      for (std::size_t k = 0; k <= dim; ++k) {
+        const Real wq = w * q[k];
+        for (std::size_t c = 0; c <= k; ++c) sums.A[k][c] += wq * q[c];
+        for (std::size_t c = 0; c < 3; ++c) sums.f[c][k] += wq * v[c][i];
+        sums.f[3][k] += wq * rho[i];
+      }
     }
-    wet = wet || sum > surrounded;
-    return seen;
+    sums.wet = sums.wet || sums.A[0][0] > surrounded;
+    return sums;
   }
-  static void sum_up(const GaugeView& view, const Vec& x, const std::vector<Seen>& seen,
-                     std::vector<Real>& out) {
-    const Particles& p = view.world.particles;
-    std::fill(out.begin() + 1, out.end(), Real(0));
-    Real sum = 0;
-    const std::array<Real, 4> b = coefficients(view, seen, sum);
-    for (const auto& [i, d, w] : seen) {
-      out[1] += w / sum * (p.p[i] - p.rho[i] * view.loads(x + d, p.part[i]).dot(d));
-      const Real share = w * (b[0] + (b[1] * d.x() + b[2] * d.y() + b[3] * d.z()) / p.h[i]);
-      for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(2 + k)] += share * p.v.data(k)[i];
-      out[5] += share * p.rho[i];
-    }
-  }
-  /// `sum`: of V W. Shepard's 1/sum where a linear base has too few particles.
-  static std::array<Real, 4> coefficients(const GaugeView& view, const std::vector<Seen>& seen, Real& sum) {
-    SmallSystem system{.n = view.world.dim + 1};
-    for (const auto& [i, d, w] : seen) {
-      const Real h = view.world.particles.h[i];
-      const std::array<Real, 4> q{1, d.x() / h, d.y() / h, d.z() / h};
-      for (std::size_t r = 0; r < 4; ++r)
-        for (std::size_t c = 0; c < 4; ++c) system.A[r][c] += w * q[r] * q[c];
-    }
+  /// Shepard's 1/sum where a linear base has too few particles.
+  static void finish(const Sums& sums, int dim, std::vector<Real>& out) {
+    const auto n = static_cast<std::size_t>(dim + 1);
+    SmallSystem system{.n = dim + 1, .A = sums.A};
+    for (std::size_t r = 0; r < n; ++r)
+      for (std::size_t c = r + 1; c < n; ++c) system.A[r][c] = sums.A[c][r];
     std::array<Real, 4> b{};
-    sum = system.A[0][0];
-    if (!system.solve(b)) b = {1 / sum, 0, 0, 0};
-    return b;
+    if (!system.solve(b)) b = {1 / sums.A[0][0], 0, 0, 0};
+    out[1] = sums.pressure / sums.A[0][0];
+    for (std::size_t k = 0; k < 4; ++k) {
+      out[2 + k] = 0;
+      for (std::size_t r = 0; r < n; ++r) out[2 + k] += b[r] * sums.f[k][r];
+    }
   }
 
   Vec point_;

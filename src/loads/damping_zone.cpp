@@ -90,6 +90,10 @@ void build_damping_zones(const Deck& deck, const Model& model, World& world, Dia
       if (box == model.boxes.end()) continue;
       shape.box = box->second;
     }
+    const Particles& p = world.particles;
+    if (maximum(p.size(), [&](Index i) { return shape.at(p.x.vec(i)); }) == 0)
+      deck.warning(diagnostics, card, "XS", "no particle is in the damping zone at the start",
+                   "it slows only what comes there later: look at its start and end");
     world.passes.add(std::make_shared<DampingZone>(points_of(world.particles), std::move(shape)));
   }
 }

@@ -308,9 +308,9 @@ void History::flush() {
   for (auto& [name, own] : gauges_) own.rows_in_file += own.rows, own.rows = 0, own.values.clear();
   rows_in_file_ += rows_;
   rows_ = 0;
-  // A large file takes long to write again: not more than a hundredth of the time goes there.
+  // A large file takes long to write again: not more than half a hundredth of the time goes there.
   const auto now = std::chrono::steady_clock::now();
-  wait_ = std::max<std::chrono::steady_clock::duration>(longest_wait_, 100 * (now - last_flush_));
+  wait_ = std::max<std::chrono::steady_clock::duration>(longest_wait_, 200 * (now - last_flush_));
 }
 
 }  // namespace courant

@@ -121,7 +121,8 @@ class WaveMakerBuilder {
     const Real h = p.size() > 0 ? maximum(p.size(), [&](Index i) { return p.h[i]; }) : 0;
     const Real least = c.kind == 1 ? kernel_support(settings_.kernel) * h : h;
     if (c.dist == 0) return least;
-    if (c.kind == 1 && c.dist < least)
+    constexpr Real round_off = 1e-6;  // of a deck's columns
+    if (c.kind == 1 && c.dist < (1 - round_off) * least)
       deck_.warning(diagnostics_, c, "DIST",
                     fmt::format("the level is measured {:g} from the flap, within the {:g} that the kernel "
                                 "reaches: an inclined flap changes it",

@@ -85,5 +85,36 @@ def test_elevation_at_the_paddle() -> None:
     beside = float(near_field(made.omega, 0.5)[0]) * 0.04 / float(piston_transfer(made.wave * 0.5))
     np.testing.assert_allclose(eta, 0.04 * np.cos(made.omega * t) + beside * np.sin(made.omega * t), atol=1e-12)
     assert Waves("solitary", depth=0.5, height=0.1).at_paddle(20)[:, 1].max() == pytest.approx(0.1, rel=1e-3)
-    assert Waves("regular", depth=0.5, height=0.01, period=30).absorption() == pytest.approx(1, abs=2e-3)
-    assert Waves("regular", depth=0.5, height=0.08, period=1.4).absorption() == pytest.approx(made.omega / float(piston_transfer(made.wave * 0.5)) * math.sqrt(0.5 / 9.81))
+    away = Waves("solitary", depth=0.5, height=0.1).at_paddle(20, away=2)
+    assert away[:, 1].max() == pytest.approx(0.1, rel=1e-3) and away[away[:, 1].argmax(), 0] > 0.5 * 2 / math.sqrt(9.81 * 0.6)
+
+
+def test_elevation_away_from_the_paddle_is_that_of_the_wave() -> None:
+    for maker in ("piston", "flap"):
+        made = Waves("regular", depth=0.5, height=0.08, period=1.4, ramp=0, maker=maker)
+        t, eta = made.at_paddle(10, away=2.5).T
+        np.testing.assert_allclose(eta, made.elevation(2.5, t), atol=1e-5)
+
+
+def test_absorption_of_long_waves_needs_no_correction() -> None:
+    found = Waves("regular", depth=0.5, height=0.01, period=30).absorption()
+    assert found.factor == pytest.approx(1, abs=2e-3) and found.delay == pytest.approx(0, abs=1e-3)
+    assert Waves("solitary", depth=0.5, height=0.1).absorption(0.1, 3) == (1, 0)
+
+
+@pytest.mark.parametrize("maker", ["piston", "flap"])
+def test_absorption_leaves_nothing_of_a_wave_of_the_period(maker: str) -> None:
+    """The loop of the wave maker at its frequency: what comes back, the wave that a wall sends on, that of the paddle, and its near field."""
+    for drift, away in ((0.0, 0.1), (2.8, 0.2), (14.0, 0.15)):
+        made = Waves("regular", depth=0.5, height=0.01, period=1.4, maker=maker)
+        factor, delay = made.absorption(away, drift)
+        w, k = made.omega, made.wave
+        c0 = float(made.transfer(k * 0.5))
+        gain = factor * math.sqrt(9.81 * 0.5) / (0.5 if maker == "piston" else 0.25)
+        back = 1j * w / drift + 0.5 / drift**2 if drift else 0.0
+        filtered = gain / (1 + 1j * w * delay) * (1j * w) ** 2 / ((1j * w) ** 2 + back)
+        beside = float(near_field(w, 0.5, hinge=None if maker == "piston" else 0.0, away=away)[0])
+        there, on = np.exp(1j * k * away), np.exp(-1j * k * away)
+        # u = - filtered (there + (1 + made) on + beside u/(i w)), made = c0 u/w
+        u = -filtered * (there + on) / (1 + filtered * (c0 / w * on + beside / (1j * w)))
+        assert abs(1 + c0 * u / w) < 1e-9, (drift, away)

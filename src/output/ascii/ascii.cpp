@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <ctime>
 #include <fstream>
 #include <iterator>
@@ -50,12 +52,18 @@ const GaugeSample& gauge_of(const Sample& sample, std::size_t number, std::size_
   throw std::out_of_range(fmt::format("no values of gauge {}", number));
 }
 
+/// The text of "{:.9g}" in half its time: numbers of gauges are most of what their files cost.
+void add_number(Real value, std::string& to) {
+  constexpr int digits = 9, longest = 32;
+  std::array<char, longest> text;
+  const auto end = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, digits).ptr;
+  to.append(text.begin(), end);
+}
+
 void add_row(const Sample& sample, const std::vector<Real>& values, std::string& to) {
-  fmt::memory_buffer row;
-  fmt::format_to(std::back_inserter(row), "{:.9g}", sample.t);
-  for (const Real value : values) fmt::format_to(std::back_inserter(row), ",{:.9g}", value);
-  row.push_back('\n');
-  to.append(row.data(), row.size());
+  add_number(sample.t, to);
+  for (const Real value : values) to += ',', add_number(value, to);
+  to += '\n';
 }
 
 }  // namespace

@@ -3,10 +3,11 @@
 made = Waves("regular", depth=0.5, height=0.08, period=1.4)
 made.displacement(end=20)    # (n, 2): time, displacement of the paddle at the still level, towards the water
 made.elevation(x=3, t=...)   # what theory expects there, by linear theory
-made.at_paddle(end=20)       # (n, 2): time, elevation at the paddle with the waves that stay beside it
+made.at_paddle(end=20)       # (n, 2): time, elevation at the paddle with the near field, which does not travel
 """
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -21,6 +22,7 @@ _MOST_ROWS = 1_000_000  # of a displacement: a typing error in a period does not
 _SHALLOWEST = 1e-3  # least wave number times depth: a piston would go a thousand heights of the wave
 _SIZES = (1e-12, 1e12)  # smallest and largest height, depth, period: powers of them stay finite
 _DEEPEST = 200.0  # wave number times depth: functions of it have their limits long before, and stay finite
+_MOST_LAG = 1.2  # of a filter, whose amplitude is 0.36 there: waves of five distances of the measured level [rad]
 GAMMA = (1.0, 20.0)  # smallest and largest; measured spectra have 1 to 7
 COMPONENTS = (2, 10000)  # fewest and most; one component has no spectrum
 
@@ -39,6 +41,13 @@ class Components(NamedTuple):
     amplitude: np.ndarray
     omega: np.ndarray
     phase: np.ndarray
+
+
+class Absorption(NamedTuple):
+    """`factor` of the velocity of long waves [-], and `delay`, the time constant of the filter of the measured level [T]."""
+
+    factor: float
+    delay: float
 
 
 def wave_number(omega: np.ndarray | float, depth: float, g: float = 9.81) -> np.ndarray:
@@ -83,9 +92,9 @@ def _evanescent(omega: np.ndarray | float, depth: float, g: float, terms: int) -
     return 0.5 * (low + high)
 
 
-def near_field(omega: np.ndarray | float, depth: float, g: float = 9.81, hinge: float | None = None, terms: int = 200) -> np.ndarray:
+def near_field(omega: np.ndarray | float, depth: float, g: float = 9.81, hinge: float | None = None, terms: int = 200, away: float = 0.0) -> np.ndarray:
     """Elevation beside the paddle that does not travel, over the displacement at the still level: the sum of the evanescent modes.
-    `hinge`: of a flap, above the bed [L]; None: a piston.
+    `hinge`: of a flap, above the bed [L]; None: a piston. `away`: distance from the paddle [L].
 
     Source: Biesel and Suquet (1951); Dean and Dalrymple (1991), section 6.3.
     """
@@ -93,7 +102,7 @@ def near_field(omega: np.ndarray | float, depth: float, g: float = 9.81, hinge: 
     shape = np.sin(k)
     if hinge is not None:
         shape = shape + (np.cos(k) - np.cos(k * max(hinge, 0.0) / depth)) / (k * (1 - hinge / depth))
-    return (4 * np.sin(k) * shape / (2 * k + np.sin(2 * k))).sum(axis=1)
+    return (4 * np.sin(k) * shape / (2 * k + np.sin(2 * k)) * np.exp(-k * away / depth)).sum(axis=1)
 
 
 def second_order_piston(omega: float, depth: float, half_stroke: float, g: float = 9.81, terms: int = 100) -> complex:
@@ -232,18 +241,37 @@ class Waves:
         """Wave number of the period [1/L]."""
         return float(wave_number(self.omega, self.depth, self.g))
 
+    def group_velocity(self) -> float:
+        """Of waves of the period [L/T]."""
+        kd = min(self.wave * self.depth, _DEEPEST)
+        return 0.5 * self.omega / self.wave * (1 + 2 * kd / math.sinh(2 * kd))
+
     def transfer(self, kd: np.ndarray | float) -> np.ndarray:
         """Height of the wave over the stroke of the maker at the still level."""
         return piston_transfer(kd) if self.maker == "piston" else flap_transfer(kd, self.hinge / self.depth)
 
-    def absorption(self) -> float:
-        """Factor of the velocity of long waves at which the maker absorbs waves of the period; 1 of kinds without one. [-]"""
+    def _near_field(self, omega: np.ndarray | float, away: float) -> np.ndarray:
+        return near_field(omega, self.depth, self.g, self.hinge if self.maker == "flap" else None, away=away)
+
+    def absorption(self, away: float = 0.0, drift: float = 0.0) -> Absorption:
+        """At which the maker absorbs waves of the period exactly by linear theory, with a level that is measured at the distance `away` from the paddle,
+        and the time constant `drift` of the return to the curve (0: none). Factor 1 and delay 0 of kinds without one period.
+
+        At `away`, a wave eta that comes back is exp(i k away) eta, and the paddle, which moves at u, adds its near field e u/(i omega). With
+        u = - F times their sum, u = - omega/c0 eta needs F (exp(i k away) + i e/c0) = omega/c0. The filter of the drift leads by the phase that the delay
+        adds to that of F, and both change the amplitude.
+        """
         if self.kind in ("solitary", "elevation"):
-            return 1.0
+            return Absorption(1.0, 0.0)
         arm = self.depth - self.hinge
         moved = self.depth if self.maker == "piston" else 0.5 * arm if self.hinge >= 0 else 0.5 * self.depth * (self.depth - 2 * self.hinge) / arm
         long = math.sqrt(self.g * self.depth) / moved
-        return self.omega / float(self.transfer(self.wave * self.depth)) / long
+        c0 = float(self.transfer(self.wave * self.depth))
+        seen = cmath.exp(1j * self.wave * away) + 1j * float(self._near_field(self.omega, away)[0]) / c0
+        turns = self.omega * drift
+        leads = 1 / (1 - 1 / (2 * turns**2) - 1j / turns) if drift > 0 else 1.0 + 0j
+        lag = min(max(cmath.phase(seen) + cmath.phase(leads), 0.0), _MOST_LAG)
+        return Absorption(self.omega / c0 / long / (abs(seen) * abs(leads) * math.cos(lag)), math.tan(lag) / self.omega)
 
     def spectrum(self) -> Components:
         """The components that add up to the waves, at the piston."""
@@ -309,21 +337,21 @@ class Waves:
         x *= self._growth(t)
         return np.column_stack([t, x - x[0]])
 
-    def at_paddle(self, end: float) -> np.ndarray:
-        """Time and elevation at the paddle by linear theory, with the near field that does not travel, to `end`; of a solitary wave Boussinesq's at the
-        moving paddle. (n, 2) [T], [L]"""
+    def at_paddle(self, end: float, away: float = 0.0) -> np.ndarray:
+        """Time and elevation at the distance `away` from the paddle by linear theory, with the near field that does not travel, to `end`; of a solitary
+        wave Boussinesq's at that distance from the moving paddle. (n, 2) [T], [L]"""
         if self.kind == "solitary":
             t, x = self._push(end).T
             kappa, c = self._solitary()
-            centre = self.height / (kappa * self.depth)
-            return np.column_stack([t, self.height / np.cosh(np.clip(kappa * (c * (t - self._start()) - (x - centre)), -300, 300)) ** 2])
+            ahead = x + away - self.height / (kappa * self.depth)
+            return np.column_stack([t, self.height / np.cosh(np.clip(kappa * (c * (t - self._start()) - ahead), -300, 300)) ** 2])
         of = self.spectrum()
         t = self._times_of(of, end)
         k = wave_number(of.omega, self.depth, self.g)
-        beside = near_field(of.omega, self.depth, self.g, self.hinge if self.maker == "flap" else None) / self.transfer(k * self.depth)
+        beside = self._near_field(of.omega, away) / self.transfer(k * self.depth)
         eta = np.zeros_like(t)
-        for a, omega, phase, share in zip(of.amplitude, of.omega, of.phase, beside):
-            eta += a * (np.cos(omega * t - phase) + share * np.sin(omega * t - phase))
+        for a, omega, phase, share, late in zip(of.amplitude, of.omega, of.phase, beside, k * away):
+            eta += a * (np.cos(omega * t - phase - late) + share * np.sin(omega * t - phase))
         return np.column_stack([t, eta * self._growth(t)])
 
     def _longest(self) -> float:

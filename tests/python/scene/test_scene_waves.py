@@ -24,13 +24,14 @@ walls:
 """
 
 
+SPACING = 0.05
 REGULAR = {"kind": "regular", "depth": 0.5, "height": 0.08, "period": 1.4}
 IRREGULAR = {"kind": "jonswap", "height": 0.08, "period": 1.4}
 
 
 def flume(low: float = -0.3, wall: float = 0.0, motion: dict[str, Any] | None = None, **waves: Any) -> courant.Scene:
     """Keys that are None are left out."""
-    made = courant.Scene("flume", spacing=0.05, end=6, wall_method="mirrors").water(low=(0, 0), high=(4, 0.5))
+    made = courant.Scene("flume", spacing=SPACING, end=6, wall_method="mirrors").water(low=(0, 0), high=(4, 0.5))
     made.box(low=(low, 0), high=(max(4, wall + 0.5), 1), open=["top", "left"])
     given = {key: value for key, value in (REGULAR | waves).items() if value is not None}
     return made.wall(line=[[wall, 0], [wall, 1]], title="piston", motion={"waves": given} | (motion or {}))
@@ -61,6 +62,44 @@ def test_records(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     np.testing.assert_allclose(curve(flume(kind="displacement", record=name, **none)), rows, atol=1e-9)
     elevation = curve(flume(kind="elevation", record=name, **none))
     assert len(elevation) > 61 and 0.02 < np.ptp(elevation[:, 1]) < 0.3
+
+
+@pytest.mark.parametrize("kind", ["elevation", "displacement"])
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "two rows of time and value or more.*there are 0"),
+        ("time,level\n0,0\n1\n", "r.csv' cannot be read: line 3: two numbers are expected, got '1'"),
+        ("0,0\n1,nan\n2,0\n", "row 2 has no finite numbers"),
+        ("0,0\n1,1\n0.5,0\n", "row 3 has time 0.5 after 1"),
+        ("0,0\n1,x\n", "line 2: two numbers are expected, got '1,x'"),
+        (b"\x80\x81", "r.csv' cannot be read: it is no text"),
+    ],
+)
+def test_faults_of_records(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str, text: str | bytes, message: str) -> None:
+    (tmp_path / "r.csv").write_bytes(text if isinstance(text, bytes) else text.encode())
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(courant.CourantError, match=message):
+        flume(kind=kind, record=str(tmp_path / "r.csv"), height=None, period=None).deck()
+
+
+@pytest.mark.parametrize("text", ["time,level\n{rows}", "{rows}", "# measured\n\ntime;level\n{rows}"])
+@pytest.mark.parametrize("between", [",", ";", " ", "\t", ", "])
+def test_records_as_loggers_write_them(tmp_path: Path, text: str, between: str) -> None:
+    rows = np.column_stack([np.linspace(0, 6, 13), 0.02 * np.sin(np.linspace(0, 9, 13))])
+    (tmp_path / "r.csv").write_text(text.format(rows="\n".join(f"{t:.6f}{between}{x:.6f}" for t, x in rows)), encoding="utf-8")
+    np.testing.assert_allclose(curve(flume(kind="displacement", record=str(tmp_path / "r.csv"), height=None, period=None)), rows, atol=1e-6)
+
+
+def test_warnings_of_what_records_and_foci_leave_out(tmp_path: Path) -> None:
+    (tmp_path / "r.csv").write_text("2,0\n3,0.01\n", encoding="utf-8")
+    out = written(tmp_path, FLUME.replace("{MOTION}", "{waves: {kind: displacement, record: r.csv}}"))
+    assert "has times 2 to 3, the run 0 to 6: its first and last value hold" in out.messages and out.deck
+    focused = "{waves: {kind: focused, depth: 0.5, height: 0.1, period: 1.4, focus: [FOCUS]}}"
+    out = written(tmp_path, FLUME.replace("{MOTION}", focused.replace("FOCUS", "50, 4")))
+    assert "in the time 4: they do not meet at 50" in out.messages and out.deck
+    assert "do not meet" not in written(tmp_path, FLUME.replace("{MOTION}", focused.replace("FOCUS", "3, 5"))).messages
+
 
 
 @pytest.mark.parametrize(
@@ -96,6 +135,7 @@ def test_records(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         ({"maker": "flap", "hinge": 0.48}, "must be below 0.9 of the depth"),
         ({"hinge": 0.1}, "waves: 'hinge' has no effect on kind regular"),
         ({"absorb": 2}, "waves: 'absorb' is true or false"),
+        ({"absorb": True, "drift": -1}, "drift: expected a time of 0 or more, got -1"),
         ({"drift": 3}, "waves: 'drift' has no effect on kind regular"),
         ({"kind": "displacement", "record": "x.csv", "height": None, "period": None, "absorb": True}, "'absorb' has no effect on kind displacement"),
         ({"kind": "still", "height": None}, "a still paddle without 'absorb: true' is a wall"),
@@ -121,9 +161,10 @@ def test_wave_makers_that_turn_or_absorb_have_a_card_of_their_own() -> None:
     made = Waves("regular", depth=0.5, height=0.08, period=1.4, maker="flap", hinge=0.1)
     numbers, curves = wave_maker(flume(maker="flap", hinge=0.1, absorb=True))
     np.testing.assert_allclose(curves[0], made.displacement(6), rtol=1e-9, atol=1e-12)
-    np.testing.assert_allclose(curves[1], made.at_paddle(6), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(curves[1], made.at_paddle(6, 4 * SPACING), rtol=1e-9, atol=1e-12)
     assert numbers[:8] == [12, 1, 901, 1, 902, 0.5, 9.81, 0.1] and numbers[8:14] == [0, 0, 0, 1, 0, 0]
-    assert numbers[14:18] == pytest.approx([made.absorption(), 0, 0, 14], rel=1e-6)
+    absorption = made.absorption(4 * SPACING, 1.4)
+    assert numbers[14:18] == pytest.approx([absorption.factor, 4 * SPACING, absorption.delay, 1.4], rel=1e-6)
     top = (1 - 0.1) / 0.4  # the upper edge goes farther than the still level
     assert numbers[18] == pytest.approx(0.3 / top + made.displacement(6)[:, 1].min(), rel=1e-6)
     deck = flume(maker="flap", hinge=0.1, absorb=True).deck()
@@ -133,11 +174,17 @@ def test_wave_makers_that_turn_or_absorb_have_a_card_of_their_own() -> None:
     np.testing.assert_allclose(back[0], Waves("regular", depth=0.5, height=0.08, period=1.4).displacement(6), rtol=1e-9, atol=1e-12)
 
 
+def test_drift_goes_back_within_a_period_and_two_of_a_spectrum() -> None:
+    for waves, drift in ((REGULAR, 1.4), (REGULAR | {"kind": "second_order"}, 1.4), (IRREGULAR, 2.8), (REGULAR | {"drift": 5}, 5)):
+        assert wave_maker(flume(**waves, absorb=True))[0][17] == pytest.approx(drift)
+
+
 def test_a_paddle_at_rest_absorbs() -> None:
     numbers, curves = wave_maker(flume(kind="still", height=None, absorb=True))
     assert numbers[:6] == [12, 0, 0, 1, 0, 0.5] and not curves
-    assert numbers[14] == pytest.approx(Waves("regular", depth=0.5, height=0.01, period=1.4).absorption(), rel=1e-6) and numbers[17] == 14
-    assert wave_maker(flume(kind="still", height=None, period=None, absorb=True))[0][14] == 1
+    absorption = Waves("regular", depth=0.5, height=0.01, period=1.4).absorption(2 * SPACING, 1.4)
+    assert numbers[14:18] == pytest.approx([absorption.factor, 2 * SPACING, absorption.delay, 1.4], rel=1e-6)
+    assert wave_maker(flume(kind="still", height=None, period=None, absorb=True))[0][14:18] == pytest.approx([1, 2 * SPACING, 0, 0])
 
 
 def test_the_box_itself_is_no_wave_maker_that_absorbs(tmp_path: Path) -> None:

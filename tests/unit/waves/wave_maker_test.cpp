@@ -181,6 +181,8 @@ TEST(WaveMaker, WarnsOfALevelThatIsNotThatOfTheWater) {
   // within the support of the kernel an inclined flap changes the level
   EXPECT_THAT(warned("2,1,0,1.,12,0.6" + at), HasSubstr("an inclined flap changes it"));
   EXPECT_THAT(warned("2,1,0,1.,12,0.6\n0.,0.,0.,1.,0.,0.\n1."), Not(HasSubstr("an inclined flap")));
+  // a column of a deck has fewer digits than h
+  EXPECT_THAT(warned("2,1,0,1.,12,0.6\n0.,0.,0.,1.,0.,0.\n1.,0.2399999"), Not(HasSubstr("an inclined flap")));
 }
 
 // Constant levels move it away, and it comes back: the mean displacement ends at that of the curve.

@@ -188,7 +188,7 @@ class BasinReader(ShapeReader):
         for key, value in entry.value:
             axis = str(key.value)
             if axis == "waves":
-                piston = read_waves(self, value, basin.gravity, basin.end)
+                piston = read_waves(self, value, basin.gravity, basin.end, basin.spacing)
                 if piston is None:
                     continue
                 axis, made = piston.axis, piston.series

@@ -45,15 +45,23 @@ def read_record(reader: NodeReader, folder: str, node: Node, what: str) -> np.nd
     path = Path(folder, reader.text(node))
     try:
         note_input(path)
-        rows = two_columns(path.read_text(encoding="utf-8", errors="replace"))
+        rows = two_columns(path.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as fault:
-        reader.error(node, f"{what}: '{path}' cannot be read: {fault.strerror if isinstance(fault, OSError) else fault}", "two numbers a line: time and value")
+        why = fault.strerror if isinstance(fault, OSError) else "it is no text" if isinstance(fault, UnicodeError) else fault
+        reader.error(node, f"{what}: '{path}' cannot be read: {why}", "two numbers a line: time and value")
         return None
     return _checked(reader, node, rows, what)
 
 
 def _checked(reader: NodeReader, node: Node, rows: np.ndarray, what: str) -> np.ndarray | None:
-    if len(rows) < 2 or not np.isfinite(rows).all() or not (np.diff(rows[:, 0]) > 0).all():
-        reader.error(node, f"{what}: expected two rows of time and value or more, with times that go upwards")
-        return None
-    return rows
+    expected = f"{what}: expected two rows of time and value or more, with times that go upwards"
+    if len(rows) < 2:
+        reader.error(node, f"{expected}; there are {len(rows)}")
+    elif not np.isfinite(rows).all():
+        reader.error(node, f"{expected}; row {np.argmin(np.isfinite(rows).all(axis=1)) + 1} has no finite numbers")
+    elif not (rising := np.diff(rows[:, 0]) > 0).all():
+        k = int(np.argmin(rising))
+        reader.error(node, f"{expected}; row {k + 2} has time {rows[k + 1, 0]:g} after {rows[k, 0]:g}")
+    else:
+        return rows
+    return None

@@ -66,7 +66,7 @@ ${pid:10}${flap:10}${lcid:10}       1.0${lceta:10}${depth:10}${g:10}${hinge:10}
 $#       x         y         z        vx        vy        vz
 ${x:10}${y:10}${z:10}${vx:10}${vy:10}${vz:10}
 $#  absorb      dist       tau    tdrift      xmax
-${absorb:10}         0         0${tdrift:10}${xmax:10}
+${absorb:10}${dist:10}${tau:10}${tdrift:10}${xmax:10}
 """
 
 _SERIES = """\
@@ -203,6 +203,7 @@ def wave_maker_cards(basin: Basin, solid: Solid, first_curve: int) -> tuple[str,
     card = substitute(_WAVE_MAKER, {
         "pid": float(solid.part), "flap": float(piston.maker == "flap"), "lcid": float(lcid), "lceta": float(lceta), "depth": piston.depth, "g": basin.gravity,
         "hinge": piston.hinge, "x": at[0], "y": at[1], "z": at[2], "vx": towards[0], "vy": towards[1], "vz": towards[2], "absorb": piston.absorb,
+        "dist": piston.away if piston.absorb > 0 else 0.0, "tau": piston.delay,
         "tdrift": piston.drift if piston.absorb > 0 else 0.0, "xmax": min(piston.space, piston.depth) if piston.space > 0 else 0.0})
     return card + curves, 2
 

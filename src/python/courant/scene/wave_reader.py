@@ -9,7 +9,7 @@ import numpy as np
 
 from ..diagnostics import Location
 from ..key_tables import keys as keys_of_map
-from ..waves import KINDS, MAKERS, WaveFault, Waves
+from ..waves import KINDS, MAKERS, Absorption, WaveFault, Waves
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
 from .series import read_record
@@ -31,7 +31,10 @@ _USED = {
     "still": ("period",),
 }
 _FLAPS = ("regular", "focused", "jonswap", "pierson_moskowitz", "elevation", "still")
-_DRIFT = 10.0  # periods in which the drift of absorption goes back
+# Periods in which the drift of absorption goes back. Its filter shifts other waves than those of the period: of a spectrum more may be among them.
+_DRIFT = {"regular": 1.0, "second_order": 1.0, "still": 1.0}
+_DRIFT_OF_OTHERS = 2.0
+_AWAY = {"piston": 2.0, "flap": 4.0}  # spacings from the paddle to the level that it measures: h, and the support of the kernel
 _KEYS = keys_of_map(
     "waves",
     "kind text, depth number, height number, period number, seed number, gamma number, focus any, components number, ramp number, record text|list, "
@@ -54,8 +57,10 @@ class Piston:
     maker: str = "piston"
     hinge: float = 0.0  # of a flap, above the bed [L]
     absorb: float = 0.0  # factor of *COURANT_WAVE_MAKER; 0: waves that come back are reflected
+    delay: float = 0.0  # of the measured level; 0: that of long waves [T]
+    away: float = 0.0  # of the measured level, from the paddle [L]
     drift: float = 0.0  # time constant in which the drift of absorption goes back; 0: it stays [T]
-    elevation: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))  # at the paddle, of what absorbs
+    elevation: np.ndarray = field(default_factory=lambda: np.empty((0, 2)))  # at `away`, of what absorbs
     space: float = 0.0  # for displacements by absorption; 0: not known [L]
 
     @property
@@ -64,7 +69,7 @@ class Piston:
         return self.maker != "piston" or self.absorb > 0
 
 
-def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> Piston | None:
+def read_waves(reader: BasinReader, node: Node, gravity: float, end: float, spacing: float) -> Piston | None:
     """The motion of a wall; None, with a message, where there is none."""
     if not reader.is_map(node, "waves: {kind: regular, depth: 0.5, height: 0.1, period: 1.4}", "waves"):
         return None
@@ -88,12 +93,7 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> P
         return None
     numbers = {key: value for key in ("depth", "height", "period", "gamma", "ramp", "drift") if (value := _number(reader, node, key)) is not None}
     whole = {key: value for key in ("seed", "components") if (value := _whole(reader, node, key)) is not None}
-    record = None
-    if kind in ("elevation", "displacement"):
-        if (file := reader.get(node, "record")) is not None:
-            record = read_record(reader, reader.folder, file, "record")
-        else:
-            reader.error(node, "'record' is missing: a file of time and value, two numbers a line")
+    record = _record(reader, node, kind, end) if kind in ("elevation", "displacement") else None
     focus_node = reader.get(node, "focus")
     focus = None
     if focus_node is not None:
@@ -101,6 +101,8 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> P
             reader.error(focus_node, "focus: expected [distance from the wall, time]", "focus: [4, 12]")
         else:
             focus = (reader.number(focus_node.value[0], "focus") or 0.0, reader.number(focus_node.value[1], "focus") or 0.0)
+    if numbers.get("drift", 0.0) < 0:
+        reader.error(reader.get(node, "drift") or node, f"drift: expected a time of 0 or more, got {shortest(numbers['drift'])}")
     if reader.diagnostics.errors > before:
         return None
     axis, sign = _SIDES[towards]
@@ -110,27 +112,37 @@ def read_waves(reader: BasinReader, node: Node, gravity: float, end: float) -> P
         if record is None:
             return None
         return Piston(axis, sign, np.column_stack([record[:, 0], sign * record[:, 1]]), depth, where, where_towards)
+    away = _AWAY[maker] * spacing
     if kind == "still":
         if not depth > 0:
             reader.error(node, "waves: 'depth' is missing: the level that a still paddle keeps", "depth: 0.5")
             return None
         try:  # of waves that come there; without a period: long ones
             period = numbers.get("period", 0.0)
-            absorb = Waves("regular", depth, 1e-6 * depth, period, gravity, maker=maker, hinge=hinge).absorption() if "period" in numbers else 1.0
+            back = _DRIFT[kind] * period if drift is None else drift
+            absorption = Absorption(1.0, 0.0)
+            if "period" in numbers:
+                absorption = Waves("regular", depth, 1e-6 * depth, period, gravity, maker=maker, hinge=hinge).absorption(away, back)
         except WaveFault as fault:
             reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
             return None
-        return Piston(axis, sign, np.array([[0.0, 0.0], [end, 0.0]]), depth, where, where_towards, maker, hinge, absorb, _DRIFT * period if drift is None else drift)
+        series = np.array([[0.0, 0.0], [end, 0.0]])
+        return Piston(axis, sign, series, depth, where, where_towards, maker, hinge, absorption.factor, absorption.delay, away, back)
     try:
         waves = Waves(kind, g=gravity, focus=focus, record=record if record is not None else np.empty((0, 2)), maker=maker, hinge=hinge,
                       **({"depth": 0.0} | numbers), **whole)  # type: ignore[arg-type]
         made = waves.displacement(end)
-        elevation = waves.at_paddle(end) if absorbs else np.empty((0, 2))
+        elevation = waves.at_paddle(end, away) if absorbs else np.empty((0, 2))
+        if focus is not None and focus[0] > (gone := waves.group_velocity() * focus[1]):
+            what = f"focus: waves of the period go {gone:.3g} in the time {shortest(focus[1])}: they do not meet at {shortest(focus[0])}"
+            reader.diagnostics.warning(reader.at(focus_node or node), what, "a later time, or a smaller distance")
     except WaveFault as fault:
         reader.error(reader.get(node, fault.key) or node, f"waves: {fault}", fault.hint)
         return None
-    return Piston(axis, sign, np.column_stack([made[:, 0], sign * made[:, 1]]), depth, where, where_towards, maker, hinge, waves.absorption() if absorbs else 0.0,
-                  _DRIFT * waves.period if drift is None else drift, elevation)
+    back = _DRIFT.get(kind, _DRIFT_OF_OTHERS) * waves.period if drift is None else drift
+    absorption = waves.absorption(away, back) if absorbs else Absorption(0.0, 0.0)
+    return Piston(axis, sign, np.column_stack([made[:, 0], sign * made[:, 1]]), depth, where, where_towards, maker, hinge, absorption.factor, absorption.delay, away,
+                  back, elevation)
 
 
 def _read_maker(reader: BasinReader, node: Node, kind: str) -> tuple[str, float, bool]:
@@ -179,3 +191,17 @@ def _whole(reader: BasinReader, node: Node, key: str) -> int | None:
         reader.error(entry, f"{key}: expected a whole number, got {shortest(value)}")
         return None
     return int(value)
+
+
+def _record(reader: BasinReader, node: Node, kind: str, end: float) -> np.ndarray | None:
+    entry = reader.get(node, "record")
+    if entry is None:
+        reader.error(node, "'record' is missing: a file of time and value, two numbers a line")
+        return None
+    rows = read_record(reader, reader.folder, entry, "record")
+    if rows is not None and (rows[0, 0] > 0 or end > rows[-1, 0]):
+        kept = "the record repeats before and after" if kind == "elevation" else "its first and last value hold before and after"
+        times = f"{shortest(rows[0, 0])} to {shortest(rows[-1, 0])}"
+        text = f"record: '{reader.text(entry)}' has times {times}, the run 0 to {shortest(end)}: {kept}"
+        reader.diagnostics.warning(reader.at(entry), text, "a record from 0 to the end of the run")
+    return rows
