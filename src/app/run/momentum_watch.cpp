@@ -38,6 +38,7 @@ constexpr std::array inside{"KEYWORD",
                             "DAMPING_PART_STIFFNESS",
                             "END",
                             "COURANT_OUTPUT",
+                            "COURANT_SUBCYCLE",
                             "COURANT_VERDICT",
                             "INTEGRATION_"};
 /// Those of the same beginnings that do.
