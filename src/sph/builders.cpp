@@ -167,7 +167,7 @@ void add_passes(const Deck& deck, const Model& model, World& world, Diagnostics&
   for (PassNote& note : add_sph_passes(world, settings, neighbours, ghosts.of_walls))
     left_out.notes.push_back(std::move(note));
   add_mirror_core(settings, ghosts.planes, world);
-  add_subcycle(subcycle, world);
+  add_subcycle(subcycle, *neighbours, world);
   if (model.body_loads.empty())
     left_out.add("body loads on particles", "no *LOAD_BODY, *LOAD_GRAVITY_PART");
   else

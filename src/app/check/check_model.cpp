@@ -224,7 +224,7 @@ double seconds_per_step(Simulation& s) {
 }
 
 /// `limit`: of particles [T]
-std::string subcycle_text(const Simulation& s, Real limit) {
+std::string subcycle_text(Simulation& s, Real limit) {
   const Subcycle* subcycle = Subcycle::of(s.world());
   if (const int steps = subcycle ? subcycle->steps_at(s.clock().dt) : 1; steps > 1)
     return fmt::format("  forces between particles are those of one step in {} (*COURANT_SUBCYCLE)\n", steps);

@@ -8,6 +8,7 @@
 #include "parallel/parallel.hpp"
 #include "sph/core/pair_motion.hpp"
 #include "sph/options/subcycle_cards.hpp"
+#include "sph/skin.hpp"
 #include "sph/sph.hpp"
 #include "state/subcycle.hpp"
 
@@ -92,6 +93,32 @@ class ClearPairForces : public Rate {
   Field<Real>& force_;
 };
 
+/// Rebuilding the lists costs the more against their use the seldomer they are used.
+class ListsOfIntervals : public Rate, public Restartable {
+ public:
+  ListsOfIntervals(Neighbours& neighbours, const World& world, const Subcycle& subcycle)
+      : neighbours_(neighbours), subcycle_(subcycle), h_(largest_h(world)) {}
+  std::string name() const override { return "lists of intervals"; }
+  void declare(const World&, Accesses&) const override {}
+  void start(World&, const Clock&) override {
+    steps_ = subcycle_.steps();
+    choose();
+  }
+  void block(World&, const Clock&, Index, Index) override {}
+  void keep(Archive& archive) override { archive("steps", steps_); }
+  void loaded(World&) override { choose(); }
+
+ private:
+  static Real largest_h(const World& world) {
+    return maximum(world.particles.size(), [&](Index i) { return world.particles.h[i]; });
+  }
+  void choose() { neighbours_.adapt_skin(least_skin * h_, most_skin * h_, skin_weight * steps_); }
+  Neighbours& neighbours_;
+  const Subcycle& subcycle_;
+  Real h_;  ///< the largest at the start [L]
+  int steps_ = 1;
+};
+
 /// The kick by the slow forces, as a force of this step; and what it means for the ledger that their kicks
 /// are longer than those of the other forces.
 class PairKick : public Force, public EnergyTerm {
@@ -159,12 +186,13 @@ const RegisterBuilder chooser(BuildPhase::conditions, "sub-cycling", choose, Err
 
 }  // namespace
 
-void add_subcycle(const SubcycleChoice& choice, World& world) {
+void add_subcycle(const SubcycleChoice& choice, Neighbours& neighbours, World& world) {
   if (choice.most == 1) return;
   const Particles& p = world.particles;
   const auto subcycle = world.passes.add(std::make_shared<Subcycle>(choice.most));
   world.passes.add(std::make_shared<MeanVelocity>(world, *subcycle));
   world.passes.add(std::make_shared<ClearPairForces>(world));
+  world.passes.add(std::make_shared<ListsOfIntervals>(neighbours, world, *subcycle));
   const auto clears = [&](const BlockPass& pass) {  // the forces of each step
     Accesses accesses;
     pass.declare(world, accesses);

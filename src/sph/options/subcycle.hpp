@@ -2,6 +2,7 @@
 // *COURANT_SUBCYCLE
 #include <string>
 
+#include "search/neighbours.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -14,6 +15,6 @@ struct SubcycleChoice {
 
 /// Makes the passes between particles that the world has slow. Call it when all of them are added, before
 /// those of loads and contact.
-void add_subcycle(const SubcycleChoice&, World&);
+void add_subcycle(const SubcycleChoice&, Neighbours&, World&);
 
 }  // namespace courant

@@ -14,7 +14,7 @@ namespace {
 
 /// A square of water falls on a free strip of shells in the plane, whose step is several times shorter than
 /// that of the water. `E`: of the strip.
-std::string struck_strip(const std::string& E, const std::string& cards = "") {
+std::string struck_strip(const std::string& E) {
   test::ShellDeck deck;
   const Real dx = 0.0025;
   deck.plate(0.08, 1, 32, 1, 2, [](const Vec& x) { return Vec(x[0], 0, x[1] - 0.5); });
@@ -50,7 +50,7 @@ const char* const off = "*COURANT_SUBCYCLE\n1\n";
 const char* const stiff = "     2.0e8";
 
 /// Steps over those that had pair forces.
-Real mean_steps(const Simulation& s) {
+Real mean_steps(Simulation& s) {
   return Real(s.clock().cycle) / Real(s.world().counters.at("pair_force_steps"));
 }
 
