@@ -42,7 +42,7 @@ int Subcycle::steps_at(Real dt) const {
   return std::max(1, static_cast<int>(ratio));
 }
 
-// One step more only with some reserve, so that the number does not change to and fro with the limits.
+// One step more only with some reserve, so that the number does not swing with the limits.
 bool Subcycle::begin(const Clock& clock) {
   if (!(clock.dt_old > 0)) ahead_ = 0;  // forces of the start may be asked for several times
   lag_ = -ahead_;

@@ -152,7 +152,7 @@ std::string conflict_with_slow(const World& world, const Subcycle& subcycle) {
     for (const Access& a : accesses.all())
       if (a.changes()) left.insert(a.what);
   }
-  for (const auto& [pass, accesses] : of_each_step)  // what begins anew in each step
+  for (const auto& [pass, accesses] : of_each_step)  // what each step begins with
     for (const Access& a : accesses.all())
       if (a.mode == Access::Mode::writes) left.erase(a.what);
   for (const auto& [pass, accesses] : of_each_step)

@@ -50,7 +50,7 @@ class Stepper : public Restartable {
 
  private:
   void evaluate_step(Clock& clock, std::string& controlled_by);
-  TimeLimit::Limit choose_dt(Clock& clock, std::string& who);
+  TimeLimit::Limit choose_dt(Clock& clock, std::string& controlled_by);
   void stop_below_dtmin(const Clock& clock);
 
   World& world_;

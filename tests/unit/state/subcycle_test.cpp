@@ -43,7 +43,7 @@ Real one(int) {
 
 }  // namespace
 
-// The first interval is one step, as none before told the limit.
+// The first interval is one step, as no limit is known before.
 TEST(Subcycle, TakesTheStepsThatTheLimitAllows) {
   Subcycle s(16);
   EXPECT_EQ(take(s, 20, one, 5.8).outer, (std::vector<int>{0, 1, 6, 11, 16}));
