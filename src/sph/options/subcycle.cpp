@@ -166,10 +166,14 @@ void choose(const Deck& deck, World& world, const SphSettings& settings, Diagnos
   if (world.particles.size() == 0) return;
   const auto* c = deck.last<CourantSubcycle>();
   const auto note = [&](const std::string& why) {
-    if (c) diagnostics.note(deck.where(*c), "*COURANT_SUBCYCLE changes nothing: " + why);
+    diagnostics.note(deck.where(*c), "*COURANT_SUBCYCLE changes nothing: " + why);
   };
+  if (!c) {
+    if (has_structure(deck, world)) out.why_not = "no *COURANT_SUBCYCLE asks for that";
+    return;
+  }
   if (!has_structure(deck, world)) return note("the deck has no structure with a step of its own");
-  const int most = c && c->nmax > 0 ? c->nmax : Subcycle::usual_most;
+  const int most = c->nmax > 0 ? c->nmax : Subcycle::usual_most;
   if (most == 1) {
     out.why_not = "NMAX of *COURANT_SUBCYCLE is 1";
   } else if (const std::string what = what_needs_each_step(deck, settings); !what.empty()) {
