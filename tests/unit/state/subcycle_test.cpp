@@ -88,7 +88,7 @@ TEST(Subcycle, ShrinksWithTheLimit) {
   std::vector<int> outer;
   for (; clock.cycle < 20; ++clock.cycle) {
     if (s.begin(clock))
-      outer.push_back(static_cast<int>(clock.cycle)), s.chosen(clock, clock.cycle < 6 ? 5 : 2.2, 1e9);
+      outer.push_back(static_cast<int>(clock.cycle)), s.chosen(clock, clock.cycle < 6 ? 5.2 : 2.2, 1e9);
     s.end(clock);
     clock.t += clock.dt, clock.dt_old = clock.dt;
   }
