@@ -32,7 +32,7 @@ std::string what_needs_each_step(const Deck& deck, const SphSettings& s) {
       {s.renormalised, "FORM of *CONTROL_SPH"},
       {std::holds_alternative<RiemannFlux>(s.viscosity), "*COURANT_RIEMANN"},
       {s.volume_tau > 0, "*COURANT_VOLUME_CONTROL"},
-      {s.reinitialisation.every > 0, "*COURANT_DENSITY_REINITIALISATION"},
+      {s.reinitialisation.every > 0, "re-initialisation of the density"},
       {s.shift.strength > 0, "ISHIFT of *CONTROL_SPH"},
       {s.xsph > 0 || s.velocity_smoothing > 0, "*COURANT_XSPH"},
       {s.has_eddies(), "an eddy viscosity"},

@@ -74,8 +74,8 @@ TEST(Subcycle, NoMomentumIsLostAndTheEnergyHolds) {
     EXPECT_LT(lost, 1e-12);
     if (on) EXPECT_GT(mean_steps(*s), 4);
   }
-  // Of first order in the interval, here of 16 steps: 0.012, against 1e-4 with forces in each step. This is why
-  // the card must ask for it.
+  // Of first order in the interval, here of 16 steps: 0.012, against 1e-4 with forces in each step. This is
+  // why the card must ask for it.
   EXPECT_LT(errors[0], 1e-3);
   EXPECT_LT(errors[1], 0.02);
 }
