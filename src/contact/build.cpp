@@ -7,6 +7,7 @@
 #include "contact/cards.hpp"
 #include "contact/contact.hpp"
 #include "contact/nodes/build.hpp"
+#include "contact/particle_springs.hpp"
 #include "model/mesh/named_parts.hpp"
 #include "state/shared_fields.hpp"
 #include "surfaces/contact_offset.hpp"
@@ -239,7 +240,8 @@ std::vector<std::shared_ptr<Contact>> build_contacts(const Deck& deck, const Mod
     ContactLaw law = law_of(deck, model, c, diagnostics);
     if (SensorBoard* const board = sensors_of(deck, model, world, diagnostics))
       law.gate = board->gate_of_contact(c.cid);
-    auto contact = std::make_shared<Contact>(std::move(law), options, number, segments, tracked, world);
+    auto contact = std::make_shared<Contact>(law, options, number, segments, tracked, world);
+    world.passes.add(make_particle_springs(law, number, tracked, world));
     for (const AskedInterfaceLaw& one : laws)
       if (one.contact == contact->report().id) contact->add_law(one.law);
     const Contact::Penetrations p = contact->penetrations(world);

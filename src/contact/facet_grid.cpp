@@ -1,5 +1,6 @@
 #include "contact/facet_grid.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,16 @@ Range cells_of(const Facet& f, Real reach, const Vec& low, Real cell, const std:
   return r;
 }
 
+/// Whether all facets go along z over at least half of the scene, as the walls of plane flow do.
+bool along_z(const std::vector<Facet>& facets, Real size) {
+  constexpr Real round_off = 1e-9;
+  return std::all_of(facets.begin(), facets.end(), [&](const Facet& f) {
+    Real low = f.x[0][2], high = low;
+    for (int e = 1; e < f.corners; ++e) low = std::min(low, f.x[e][2]), high = std::max(high, f.x[e][2]);
+    return std::abs(f.n[2]) < round_off && high - low > 0.5 * size;
+  });
+}
+
 }  // namespace
 
 void FacetGrid::build(const std::vector<Facet>& facets, Real reach) {
@@ -44,9 +55,10 @@ void FacetGrid::build(const std::vector<Facet>& facets, Real reach) {
   // the memory.
   const Real most = std::max<Real>(1e5, 50.0 * Real(facets.size()));
   cell_ = std::max(slack, size.maxCoeff() / 2000);
-  while (std::ceil(size[0] / cell_) * std::ceil(size[1] / cell_) * std::ceil(size[2] / cell_) > most)
-    cell_ *= 1.25;
-  for (int k = 0; k < 3; ++k) cells_[k] = std::max<Index>(1, Index(std::ceil(size[k] / cell_)));
+  const bool plane = along_z(facets, high[2] - low[2]);  // layers would all have the same facets
+  const auto along = [&](int k) { return plane && k == 2 ? Real(1) : std::ceil(size[k] / cell_); };
+  while (along(0) * along(1) * along(2) > most) cell_ *= 1.25;
+  for (int k = 0; k < 3; ++k) cells_[k] = std::max<Index>(1, Index(along(k)));
   inverse_ = 1 / cell_;
 
   first_.assign(std::size_t(cells_[0]) * cells_[1] * cells_[2] + 1, 0);
@@ -78,6 +90,7 @@ void FacetGrid::build(const std::vector<Facet>& facets, Real reach) {
 std::span<const Index> FacetGrid::near(const Vec& x) const {
   std::size_t c = 0;
   for (int k = 0; k < 3; ++k) {
+    if (cells_[k] == 1) continue;
     const Real a = (x[k] - low_[k]) * inverse_;
     if (!(a >= 0 && a < cells_[k])) return {};
     c = c * cells_[k] + std::size_t(a);

@@ -11,6 +11,7 @@
 #include "sph/inlets/injection.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "sph/materials/materials.hpp"
+#include "sph/options/subcycle.hpp"
 #include "sph/outlets/frozen_outlet.hpp"
 #include "sph/outlets/level_outlet.hpp"
 #include "sph/skin.hpp"
@@ -153,7 +154,7 @@ void set_pressures(const Deck& deck, const Model& model, World& world, Diagnosti
 void add_passes(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                 LeftOut& left_out, const ParticlePressures&, const std::vector<PartMaterial>& materials,
                 const SphSettings& settings, const GhostsOfScene& ghosts, const PointLoads& loads,
-                const std::shared_ptr<Neighbours>& neighbours, FlowPasses&) {
+                const SubcycleChoice& subcycle, const std::shared_ptr<Neighbours>& neighbours, FlowPasses&) {
   if (!neighbours) return;
   const Points particles = points_of(world.particles);
   const BodyAcceleration acceleration = acceleration_of_particles(model);
@@ -166,6 +167,7 @@ void add_passes(const Deck& deck, const Model& model, World& world, Diagnostics&
   for (PassNote& note : add_sph_passes(world, settings, neighbours, ghosts.of_walls))
     left_out.notes.push_back(std::move(note));
   add_mirror_core(settings, ghosts.planes, world);
+  add_subcycle(subcycle, *neighbours, world);
   if (model.body_loads.empty())
     left_out.add("body loads on particles", "no *LOAD_BODY, *LOAD_GRAVITY_PART");
   else

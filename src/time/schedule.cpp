@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "time/access_check.hpp"
+#include "time/inner_schedule.hpp"
 
 namespace courant {
 
@@ -43,14 +44,18 @@ void stop_for_foreign_change(const StagePlan::Entry& e) {
 
 class Planner {
  public:
-  Planner(const World& world, bool has_ghosts) : world_(world), has_ghosts_(has_ghosts) {}
+  Planner(const World& world, bool has_ghosts, bool inner)
+      : world_(world), subcycle_(Subcycle::of(world)), has_ghosts_(has_ghosts), inner_(inner) {}
 
   std::vector<StagePlan> plan(const std::vector<Phase>& phases) {
     std::vector<StagePlan> stages(1);
     std::size_t part = 0;  // first entry behind the last wait
     for (const Phase phase : phases)
       for (BlockPass* pass : world_.passes.in_phase(phase, world_)) {
-        StagePlan::Entry entry{pass, &pass->over(world_), {}, false, {}};
+        const bool slow = subcycle_ && subcycle_->is_slow(*pass);
+        if (slow && inner_) continue;
+        StagePlan::Entry entry{
+            slow ? subcycle_->in_stead_of(*pass) : pass, &pass->over(world_), {}, false, {}};
         pass->declare(world_, entry.accesses);
         if (pass->name() == left_out_declaration().first) entry.accesses.drop(left_out_declaration().second);
         stop_for_foreign_change(entry);
@@ -103,14 +108,17 @@ class Planner {
   }
 
   const World& world_;
-  bool has_ghosts_;
+  const Subcycle* subcycle_;
+  bool has_ghosts_, inner_;
   std::set<const Resource*> stale_;  ///< changed since their ghosts were
 };
 
 }  // namespace
 
-Schedule make_schedule(const World& world) {
-  Planner planner(world, !world.passes.all<Exchanger>().empty());
+namespace {
+
+Schedule make(const World& world, bool inner) {
+  Planner planner(world, !world.passes.all<Exchanger>().empty(), inner);
   const std::vector<Phase> before{Phase::rates, Phase::laws, Phase::reductions, Phase::forces,
                                   Phase::constraints};
   const std::vector<Phase> after{Phase::drive, Phase::motion, Phase::relocation, Phase::preparation};
@@ -119,6 +127,39 @@ Schedule make_schedule(const World& world) {
   out.forces = planner.plan(before);
   out.motion = planner.plan(after);
   return out;
+}
+
+}  // namespace
+
+Schedule make_schedule(const World& world) {
+  return make(world, false);
+}
+
+std::vector<StagePlan> make_inner_forces(const World& world) {
+  return make(world, true).forces;
+}
+
+std::string conflict_with_slow(const World& world, const Subcycle& subcycle) {
+  std::set<const Resource*> left;
+  std::vector<std::pair<const BlockPass*, Accesses>> of_each_step;
+  for (const BlockPass* pass : world.passes.all<BlockPass>()) {
+    Accesses accesses;
+    pass->declare(world, accesses);
+    if (!subcycle.is_slow(*pass)) {
+      of_each_step.emplace_back(pass, std::move(accesses));
+      continue;
+    }
+    for (const Access& a : accesses.all())
+      if (a.changes()) left.insert(a.what);
+  }
+  for (const auto& [pass, accesses] : of_each_step)  // what each step begins with
+    for (const Access& a : accesses.all())
+      if (a.mode == Access::Mode::writes) left.erase(a.what);
+  for (const auto& [pass, accesses] : of_each_step)
+    for (const Access& a : accesses.all())
+      if (a.changes() && left.contains(a.what))
+        return fmt::format("{} changes {} in each step", pass->name(), a.what->name());
+  return {};
 }
 
 std::string text_of(const Schedule& schedule) {

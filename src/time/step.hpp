@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "search/neighbours.hpp"
+#include "state/subcycle.hpp"
 #include "state/world.hpp"
 #include "time/guard.hpp"
 #include "time/pass_timer.hpp"
@@ -48,6 +49,8 @@ class Stepper : public Restartable {
   }
 
  private:
+  void evaluate_step(Clock& clock, std::string& controlled_by);
+  TimeLimit::Limit choose_dt(Clock& clock, std::string& controlled_by);
   void stop_below_dtmin(const Clock& clock);
 
   World& world_;
@@ -63,6 +66,9 @@ class Stepper : public Restartable {
   TimeLimit::Limit computed_{0, {}};  ///< limit of the passes, without DTINIT and LCTM
   SteadyStep steady_;
   Real first_dt_ = 0, first_tssfac_ = 1;  ///< of the first step: that [T], and TSSFAC
+  Subcycle* subcycle_;                    ///< null: every pass runs in each step
+  std::vector<Stage> inner_forces_;       ///< of steps without slow passes
+  std::vector<Springs*> springs_;
 };
 
 /// Energies at t^n into world.energy (the accumulated ones stay).

@@ -10,6 +10,8 @@
 #include "extension/additions.hpp"
 #include "parallel/parallel.hpp"
 #include "search/nearest_distance.hpp"
+#include "sph/options/subcycle.hpp"
+#include "state/subcycle.hpp"
 
 namespace courant {
 
@@ -221,6 +223,19 @@ double seconds_per_step(Simulation& s) {
   return motion_and_lists * least;
 }
 
+/// `limit`: of particles [T]
+std::string subcycle_text(Simulation& s, Real limit) {
+  const Subcycle* subcycle = Subcycle::of(s.world());
+  if (const int steps = subcycle ? subcycle->steps_at(s.clock().dt) : 1; steps > 1)
+    return fmt::format("  forces between particles are those of one step in {} (*COURANT_SUBCYCLE)\n", steps);
+  std::string why = subcycle ? subcycle->why_off() : s.get<SubcycleChoice>().why_not;
+  if (subcycle && why.empty()) why = "the springs of contact are too stiff";
+  const Real ratio = std::floor(limit / s.clock().dt * (1 + 1e-9));
+  if (!(ratio >= 2) || why.empty()) return {};
+  return fmt::format("  note: forces between particles would be needed in one step of {:.0f}, but {}\n",
+                     ratio, why);
+}
+
 std::string step_text(Simulation& s, const std::string& who, ModelFacts& facts) {
   const double seconds = seconds_per_step(s);
   const Real dt = s.clock().dt, endtim = s.model().endtim;
@@ -228,11 +243,14 @@ std::string step_text(Simulation& s, const std::string& who, ModelFacts& facts) 
   facts.dt = dt, facts.endtim = endtim, facts.set_by = who, facts.steps = steps;
   facts.seconds = steps * seconds;
   std::string text = fmt::format("First step {:.5g} [T], set by {}\n", dt, who);
+  Real particles = 0;
   for (TimeLimit* limit : s.world().passes.all<TimeLimit>()) {
     const TimeLimit::Limit one = limit->limit(s.world(), s.clock());
+    if (limit->name() == "sph time step") particles = one.dt;
     if (std::isfinite(one.dt) && one.who != who)
       text += fmt::format("  {} would allow {:.5g}\n", one.who, one.dt);
   }
+  text += subcycle_text(s, particles);
   return text +
          fmt::format("  {:.0f} steps to ENDTIM = {:g} at this size; on one thread of this machine about {}\n",
                      steps, endtim, duration(steps * seconds));

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "app/run/resources.hpp"
 #include "elements/element_laws.hpp"
+#include "state/subcycle.hpp"
 
 namespace courant {
 
@@ -52,6 +54,26 @@ std::int64_t outside_scene(const World& world) {
   return out;
 }
 
+/// What outer steps spared, by what their passes took; empty where each step was one.
+std::string subcycle_note(Simulation& s) {
+  const World& world = s.world();
+  const Subcycle* subcycle = Subcycle::of(world);
+  const auto found = world.counters.find("pair_force_steps");
+  if (!subcycle || found == world.counters.end()) return {};
+  const auto outer = static_cast<Real>(found->second), all = static_cast<Real>(s.clock().cycle);
+  if (!(outer > 0 && outer < all)) return {};
+  std::set<std::string> slow;
+  for (const BlockPass* pass : world.passes.all<BlockPass>())
+    if (subcycle->is_slow(*pass)) slow.insert(pass->name());
+  Real seconds = 0;
+  for (const PassTimer::Row& row : s.timer().table()) seconds += slow.contains(row.name) ? row.seconds : 0;
+  return fmt::format(
+      "forces between particles were worked out in one of {:.1f} steps (*COURANT_SUBCYCLE), which spared "
+      "some "
+      "{:.2g} s",
+      all / outer, seconds * (all - outer) / outer);
+}
+
 }  // namespace
 
 std::optional<UnitNames> units_of(const Simulation& s) {
@@ -77,6 +99,7 @@ void note_end(Summary& y, Simulation& s) {
     y.counters["outside_the_scene"] = outside;
   if (!std::isfinite(y.dt_min)) y.dt_min = 0;
   y.notes = idle_contacts(s);
+  if (std::string note = subcycle_note(s); !note.empty()) y.notes.push_back(std::move(note));
   if (s.has_particles()) y.counters["neighbour_rebuilds"] = s.neighbours().rebuilds();
   if (const auto units = units_of(s))
     y.mass = units->mass, y.length = units->length, y.time_unit = units->time;

@@ -39,6 +39,7 @@ constexpr std::array inside{"KEYWORD",
                             "DEFORMABLE_TO_RIGID",
                             "END",
                             "COURANT_OUTPUT",
+                            "COURANT_SUBCYCLE",
                             "COURANT_VERDICT",
                             "INTEGRATION_"};
 /// Those of the same beginnings that do.

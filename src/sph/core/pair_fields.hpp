@@ -1,6 +1,7 @@
 #pragma once
 // What the loops over pairs read and write of a scene, for any source of gradients.
 #include "sph/core/pair_loops.hpp"
+#include "sph/core/pair_motion.hpp"
 #include "sph/sph.hpp"
 
 namespace courant {
@@ -26,6 +27,7 @@ class RateFields {
 
  private:
   const AnyKernel* kernel_;
+  PairMotion motion_;
   Field<Real>* heat_;
   Field<Real>* viscous_speed_ = nullptr;
   Field<Real>* strain_ = nullptr;
@@ -45,6 +47,7 @@ class ForceFields {
 
  private:
   const AnyKernel* kernel_;
+  PairMotion motion_;
   Field<Real>* total_pressure_ = nullptr;
   Field<Real>* tau_ = nullptr;
   Field<Real>*diffusion_ = nullptr, *potential_ = nullptr;

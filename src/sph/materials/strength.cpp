@@ -7,6 +7,7 @@
 #include "laws/objective.hpp"
 #include "laws/strength/strength.hpp"
 #include "sph/core/fields.hpp"
+#include "sph/core/pair_motion.hpp"
 #include "sph/core/pair_volumes.hpp"
 #include "sph/core/view.hpp"
 #include "sph/materials/equation_of_state.hpp"
@@ -21,6 +22,7 @@ class Spin : public Rate {
   Spin(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
        std::shared_ptr<PairVolumes> volumes)
       : loop_(spin_loop(s.kernel, s.dim)),
+        v_(PairMotion(world.particles).v),
         spin_(sph_fields::spin(world.particles)),
         neighbours_(with_whole_lists(std::move(neighbours))),
         volumes_(std::move(volumes)) {
@@ -29,12 +31,12 @@ class Spin : public Rate {
   std::string name() const override { return "spin"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
-    a.reads(p.x, Reach::others).reads(p.v, Reach::others).reads(p.h);
+    a.reads(p.x, Reach::others).reads(v_, Reach::others).reads(p.h);
     a.reads(volumes_->before(), Reach::others).writes(spin_);
   }
   void start(World& world, const Clock&) override {
     const Particles& p = world.particles;
-    for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.v[k] = p.v.data(k), a_.spin[k] = spin_.data(k);
+    for (int k = 0; k < 3; ++k) a_.x[k] = p.x.data(k), a_.v[k] = v_.data(k), a_.spin[k] = spin_.data(k);
     a_.h = p.h.data(), a_.V = volumes_->current();
   }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -43,7 +45,7 @@ class Spin : public Rate {
 
  private:
   StrengthLoop loop_;
-  Field<Real>& spin_;
+  Field<Real>&v_, &spin_;
   std::shared_ptr<Neighbours> neighbours_;
   std::shared_ptr<PairVolumes> volumes_;
   StrengthArrays a_{};

@@ -1,5 +1,6 @@
 // The heat of Monaghan's viscosity, as equations of state take it into E.
 #include "sph/core/fields.hpp"
+#include "sph/core/pair_motion.hpp"
 #include "sph/materials/materials.hpp"
 #include "state/restartable.hpp"
 
@@ -15,21 +16,20 @@ namespace {
 class ViscousHeat : public Rate, public Refresh {
  public:
   explicit ViscousHeat(World& world)
-      : power_(sph_fields::dissipation(world.particles)),
+      : motion_(world.particles),
+        power_(sph_fields::dissipation(world.particles)),
         heat_(sph_fields::viscous_heat(world.particles)),
         force_(sph_fields::last_viscous_force(world.particles)),
         taken_(sph_fields::last_viscous_power(world.particles)) {
     force_.fill(0), taken_.fill(0);
   }
   std::string name() const override { return "viscous heat"; }
-  void declare(const World& world, Accesses& a) const override {
-    const Particles& p = world.particles;
-    a.reads(p.f).reads(p.v).reads(power_).writes(heat_).updates(force_).updates(taken_);
+  void declare(const World&, Accesses& a) const override {
+    a.reads(motion_.f).reads(motion_.v).reads(power_).writes(heat_).updates(force_).updates(taken_);
   }
-  void block(World& world, const Clock&, Index begin, Index end) override {
-    const Particles& p = world.particles;
+  void block(World&, const Clock&, Index begin, Index end) override {
     for (Index i = begin; i < end; ++i) {  // f holds nothing else yet
-      const Vec v = p.v.vec(i), f = p.f.vec(i);
+      const Vec v = motion_.v.vec(i), f = motion_.f.vec(i);
       heat_[i] = 0.5 * (power_[i] + taken_[i] - force_.vec(i).dot(v));
       taken_[i] = power_[i] + f.dot(v);
       force_.set(i, f);
@@ -42,6 +42,7 @@ class ViscousHeat : public Rate, public Refresh {
   }
 
  private:
+  PairMotion motion_;
   Field<Real>&power_, &heat_, &force_, &taken_;
 };
 
