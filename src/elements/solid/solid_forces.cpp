@@ -59,8 +59,10 @@ class SolidForces : public Material, public TimeLimit, public SolidReports {
       for (Index e = 0; e < group_.size(); ++e) take_density(e);
     }
     limit_to_frequency(held, world);
-    if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0) {
-      damping_ = std::make_unique<StiffnessDamping>(coef, group_, 1, part.formulation->points);
+    const auto of_part = static_cast<std::size_t>(group.part);
+    const Real coef = options.stiffness_damping[of_part];
+    if (const FrequencyRange& range = options.stress_ranges[of_part]; coef != 0 || range.any()) {
+      damping_ = std::make_unique<StiffnessDamping>(coef, range, group_, 1, part.formulation->points);
       if (full_) full_->damp_by(damping_.get());
     }
     if (part.pressure) start_pressure();

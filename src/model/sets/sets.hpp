@@ -74,10 +74,13 @@ class SetResolver {
   Found row(SetKind kind, const SetCard& card, std::string_view word, const std::vector<Id>& ids);
 
   // what the words of a row take
-  Members everything(SetKind kind);
+  Found everything(SetKind kind, const SetCard& card);
   Found elements(SetKind kind, const SetCard& card, const std::vector<Id>& ids);
   Found of_parts(SetKind kind, const SetCard& card, const std::vector<Id>& ids);
-  Found in_boxes(SetKind kind, const SetCard& card, const std::vector<Id>& ids);
+  Found in_boxes(SetKind kind, const SetCard& card, std::string_view word, const std::vector<Id>& ids);
+  /// Segments on the faces of solids that no other of them in the same part has, if their corners are
+  /// `inside`; normals point outwards.
+  Found skin(const SetCard& card, const Members& solids, const std::function<bool(Index)>& inside);
   Found of_sets(SetKind kind, SetKind from, const SetCard& card, const std::vector<Id>& ids);
   Members turned_around(const Members& segments);
   Index segment(const std::array<Index, 4>& corners);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "keyword/source.hpp"
 #include "model/sets/sets.hpp"
@@ -44,9 +45,11 @@ const std::vector<Word>& words_of(SetKind kind) {
                                              {"PART", IdSpace::part, segment_columns},
                                              {"BOX", IdSpace::box, segment_columns},
                                              {"BOX_SHELL", IdSpace::box, segment_columns},
+                                             {"BOX_SOLID", IdSpace::box, segment_columns},
                                              {"SEG", IdSpace::node, 4},
                                              {"SET", IdSpace::segment_set, segment_columns},
-                                             {"SET_SHELL", IdSpace::shell_set, segment_columns}}};
+                                             {"SET_SHELL", IdSpace::shell_set, segment_columns},
+                                             {"SET_SOLID", IdSpace::solid_set, segment_columns}}};
   return words[static_cast<std::size_t>(kind)];
 }
 
@@ -129,10 +132,10 @@ SetResolver::Found SetResolver::general(SetKind kind, const SetCard& card) {
 
 SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::string_view word,
                                     const std::vector<Id>& ids) {
-  if (word == "ALL") return everything(kind);
+  if (word == "ALL") return everything(kind, card);
   if (word == "PART") return kind == SetKind::part ? elements(kind, card, ids) : of_parts(kind, card, ids);
   if (word == "NODE" || word == "ELEM") return elements(kind, card, ids);
-  if (word == "BOX" || word == "BOX_SHELL") return in_boxes(kind, card, ids);
+  if (word.substr(0, 3) == "BOX") return in_boxes(kind, card, word, ids);
   if (word == "SET") return of_sets(kind, kind, card, ids);
   if (word == "SET_SHELL") return of_sets(kind, SetKind::shell, card, ids);
   if (word == "SET_SOLID") return of_sets(kind, SetKind::solid, card, ids);
@@ -143,12 +146,18 @@ SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::stri
   return Members{found};
 }
 
-SetResolver::Members SetResolver::everything(SetKind kind) {
-  // segments of all shells; there are no solids that could show a face
-  const SetKind from = kind == SetKind::segment ? SetKind::shell : kind;
-  Members out(count(from));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<Index>(i);
-  return converted(from, kind, out);
+SetResolver::Found SetResolver::everything(SetKind kind, const SetCard& card) {
+  const auto all = [&](SetKind from) {
+    Members out(count(from));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<Index>(i);
+    return out;
+  };
+  if (kind != SetKind::segment) return all(kind);
+  Members out = converted(SetKind::shell, kind, all(SetKind::shell));
+  const Found faces = skin(card, all(SetKind::solid), [](Index) { return true; });
+  if (!faces) return std::nullopt;
+  out.insert(out.end(), faces->begin(), faces->end());
+  return out;
 }
 
 SetResolver::Found SetResolver::elements(SetKind kind, const SetCard& card, const std::vector<Id>& ids) {
@@ -178,9 +187,11 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   if (kind == SetKind::shell) return shells;
   if (kind == SetKind::solid) return solids;
   if (kind == SetKind::segment) {
-    if (solids.empty()) return converted(SetKind::shell, kind, shells);
-    error(card, "E1", 0, "segments on the faces of solid elements are not supported");
-    return std::nullopt;
+    const Found faces = skin(card, solids, [](Index) { return true; });
+    if (!faces) return std::nullopt;
+    out = converted(SetKind::shell, kind, shells);
+    out.insert(out.end(), faces->begin(), faces->end());
+    return out;
   }
   out = converted(SetKind::shell, kind, shells);
   const Members of_solids = converted(SetKind::solid, kind, solids);
@@ -192,8 +203,9 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   return out;
 }
 
-SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, const std::vector<Id>& ids) {
-  Members out;
+SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, std::string_view word,
+                                         const std::vector<Id>& ids) {
+  Members out, faces;
   for (const Id id : ids) {
     const auto it = model_.boxes.find(id);
     if (it == model_.boxes.end()) {
@@ -210,10 +222,19 @@ SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, cons
       for (std::size_t i = 0; i < model_.nodes.size(); ++i) add(i, std::array{static_cast<Index>(i)});
     else if (kind == SetKind::solid)
       for (std::size_t i = 0; i < model_.solids.size(); ++i) add(i, model_.solids[i].node);
-    else
+    else if (word != "BOX_SOLID")
       for (std::size_t i = 0; i < model_.shells.size(); ++i) add(i, model_.shells[i].node);
+    if (kind != SetKind::segment || word == "BOX_SHELL") continue;
+    Members solids(model_.solids.size());
+    std::iota(solids.begin(), solids.end(), Index(0));
+    const Found of_box = skin(card, solids, inside);
+    if (!of_box) return std::nullopt;
+    faces.insert(faces.end(), of_box->begin(), of_box->end());
   }
-  return kind == SetKind::segment ? converted(SetKind::shell, kind, out) : out;
+  if (kind != SetKind::segment) return out;
+  out = converted(SetKind::shell, kind, out);
+  out.insert(out.end(), faces.begin(), faces.end());
+  return out;
 }
 
 SetResolver::Found SetResolver::of_sets(SetKind kind, SetKind from, const SetCard& card,
@@ -222,7 +243,10 @@ SetResolver::Found SetResolver::of_sets(SetKind kind, SetKind from, const SetCar
   for (const Id id : ids) {
     const Members* members = other(card, "E1", from, id);
     if (!members) return std::nullopt;
-    const Members own = converted(from, kind, *members);
+    const bool of_solids = from == SetKind::solid && kind == SetKind::segment;
+    const Found faces = of_solids ? skin(card, *members, [](Index) { return true; }) : Members{};
+    if (!faces) return std::nullopt;
+    const Members own = of_solids ? *faces : converted(from, kind, *members);
     out.insert(out.end(), own.begin(), own.end());
   }
   return out;
