@@ -71,6 +71,12 @@ class RangeReader {
             fmt::format("part {} is rigid: damping over a range of frequencies does not act on it", id));
       return;
     }
+    const ModelPart& of = model_.parts[part];
+    if (!of.has_sph && !of.has_solid && !of.has_shell && !of.has_beam) {
+      if (named)
+        deck_.warning(diagnostics_, card, "PSID", fmt::format("part {} has no elements that are damped", id));
+      return;
+    }
     if (const std::string why = why_not_(part); !why.empty()) {
       std::string message = fmt::format("part {} is not damped: {}", id, why);
       if (named) return error(card, "PSID", std::move(message), "take it out of the part set");
@@ -109,7 +115,7 @@ FrequencyRange::Step FrequencyRange::step(Real dt) const {
 
 FrequencyRange fitted_range(Real cdamp, Real flow, Real fhigh, bool of_stress) {
   constexpr Real apart = 5.5;   // of neighbouring times: fits within 5 %
-  constexpr Real narrow = 2.0;  // times that are closer would not be told apart
+  constexpr Real narrow = 2.0;  // closer times are one mechanism
   constexpr int samples = 24;   // of each mechanism
   const Real wider = std::max(Real(1), std::sqrt(narrow * flow / fhigh));
   const Real low = 2 * pi * flow / wider, ratio = fhigh / flow * wider * wider;

@@ -13,7 +13,7 @@ struct CrossSections : Pass {
   std::vector<CrossSection> sections{};
 };
 
-/// They as elements stand now. The world has the passes of elements.
+/// Those of the present positions. The world has the passes of elements.
 std::shared_ptr<CrossSections> read_cross_sections(const Deck& deck, const Model& model, const World& world,
                                                    Diagnostics& diagnostics);
 

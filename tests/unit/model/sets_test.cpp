@@ -262,15 +262,16 @@ TEST(Sets, OfSolids) {
   EXPECT_EQ(ids_of(m.model.nodes, m.model.node_sets.at(4)), (Ids{2, 3, 5, 6, 12}));
 }
 
-/// Two cubes of part 1 side by side along x, one of part 3 on top of the first, which share nodes.
+/// Two cubes of part 7 side by side along x, one of part 8 on top of the first, which share nodes.
 std::string cubes(const std::string& set) {
   std::string out = "*NODE\n";
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 3; ++i) out += fmt::format("{},{}.0,{}.0,{}.0\n", 101 + i + 3 * j + 6 * k, i, j, k);
   return out +
-         "*ELEMENT_SOLID\n1,1,101,102,105,104,107,108,111,110\n2,1,102,103,106,105,108,109,112,111\n"
-         "3,3,107,108,111,110,113,114,117,116\n*SET_SEGMENT_GENERAL\n9\n" +
+         "*PART\ncubes\n7\n*PART\nmore\n8\n*ELEMENT_SOLID\n1,7,101,102,105,104,107,108,111,110\n2,7,102,103,"
+         "106,105,108,109,112,111\n"
+         "3,8,107,108,111,110,113,114,117,116\n*SET_SEGMENT_GENERAL\n9\n" +
          set;
 }
 /// Corners of the segments of set 9, and the outward area that they enclose: 0 where they are closed.
@@ -293,13 +294,14 @@ TEST(Sets, FacesOfSolidsPointOutwards) {
     EXPECT_EQ(found, count) << set;
     EXPECT_LT((sum - area).norm(), 1e-12) << set << sum.transpose();
   };
-  expect("PART,1\n", 10, Vec::Zero());
-  expect("PART,1,3\n", 16, Vec::Zero());  // each part has the face between them
-  expect("ALL\n", 16, Vec::Zero());
+  expect("PART,7\n", 10, Vec::Zero());
+  expect("PART,7,8\n", 16, Vec::Zero());  // each part has the face between them
   expect("BOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,-.1,.1\n", 2, Vec(0, 0, -2));
   expect("BOX_SOLID,5\n*DEFINE_BOX\n5,1.9,9.,-1.,9.,-.1,9.\n", 1, Vec(1, 0, 0));
   expect("SET_SOLID,5\n*SET_SOLID\n5\n2\n", 6, Vec::Zero());
-  expect("PART,3\nDBOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,1.9,9.\n", 5, Vec(0, 0, -1));
+  const SmallModel all = small_model(cubes("ALL\n"));
+  EXPECT_EQ(all.model.segment_sets.at(9).size(), 16 + all.model.shells.size());
+  expect("PART,8\nDBOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,1.9,9.\n", 5, Vec(0, 0, -1));
 }
 
 /// One entry of a keyword with a single row below the set id, shifted as *INCLUDE_TRANSFORM does it.

@@ -56,9 +56,7 @@ TEST(StandardSections, PointsAreThoseOfIntegrationBeam) {
       end_of(
           "         1       1.0         2         2\nSECTION_01      0.04     0.004      0.06     0.003\n"),
       by_rule);
-  EXPECT_EQ(end_of("         1       1.0         2         2\nsection_01, &w, 0.004, 0.06, 0.003\n",
-                   "*PARAMETER\nR w,0.04\n"),
-            by_rule);
+  EXPECT_EQ(end_of("         1       1.0         2         2\nsection_01,0.04,0.004,0.06,0.003\n"), by_rule);
 }
 
 TEST(StandardSections, TorsionAndMoments) {
