@@ -296,7 +296,8 @@ TEST(Sets, FacesOfSolidsPointOutwards) {
   };
   expect("PART,7\n", 10, Vec::Zero());
   expect("PART,7,8\n", 16, Vec::Zero());  // each part has the face between them
-  expect("BOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,-.1,.1\n", 2, Vec(0, 0, -2));
+  expect("BOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,1.9,9.\n", 1, Vec(0, 0, 1));
+  expect("BOX_SOLID,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,-.1,.1\n", 2, Vec(0, 0, -2));
   expect("BOX_SOLID,5\n*DEFINE_BOX\n5,1.9,9.,-1.,9.,-.1,9.\n", 1, Vec(1, 0, 0));
   expect("SET_SOLID,5\n*SET_SOLID\n5\n2\n", 6, Vec::Zero());
   const SmallModel all = small_model(cubes("ALL\n"));
