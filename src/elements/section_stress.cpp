@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "elements/beam/axial_preload.hpp"
+#include "elements/held_stress.hpp"
 #include "elements/histories/secforc.hpp"
 #include "elements/initial_cards.hpp"
 #include "elements/kept_stress.hpp"
@@ -31,55 +32,43 @@ struct StressOfSection {
   std::vector<Index> solids{};
 };
 
-/// Behind the motion, so that the law goes on from this stress; the strain of one step comes on top of it.
-class SectionStress : public Preparation {
+class SectionStress : public HeldStress {
  public:
-  SectionStress(const ElementGroup& group, Field<Real>& stress, int points)
-      : group_(group),
-        stress_(stress),
-        points_(points),
-        of_solid_(static_cast<std::size_t>(group.size()), -1) {}
-  std::string name() const override { return "stress of sections in " + group_.fields.name(); }
-  const FieldSet& over(const World&) const override { return group_.fields; }
-  void declare(const World&, Accesses& a) const override { a.updates(stress_); }
+  explicit SectionStress(const ElementGroup& group) : of_solid_(static_cast<std::size_t>(group.size()), -1) {}
 
   void add(StressOfSection section) {
     for (const Index e : section.solids)
       of_solid_[static_cast<std::size_t>(e)] = static_cast<Index>(all_.size());
     all_.push_back(std::move(section));
   }
-  void start(World&, const Clock& clock) override {
-    const Real t = clock.t + clock.dt;
+  void start(Real t) override {
+    time_ = t;
     now_.clear();
     for (const StressOfSection& section : all_) now_.push_back(t <= section.until ? section.curve(t) : 0);
-    time_ = t;
   }
-  void block(World&, const Clock&, Index begin, Index end) override {
-    for (Index e = begin; e < end; ++e) {
-      const Index k = of_solid_[static_cast<std::size_t>(e)];
+  void hold(int, Index begin, const PointBlock& points) const override {
+    for (Index i = 0; i < points.count; ++i) {
+      const Index k = of_solid_[static_cast<std::size_t>(begin + i)];
       if (k < 0 || time_ > all_[static_cast<std::size_t>(k)].until) continue;
-      for (int p = 0; p < points_; ++p) set(e, p, static_cast<std::size_t>(k));
+      set(static_cast<std::size_t>(k), [&](std::size_t c) -> Real& { return points.stress[c][i]; });
     }
   }
 
  private:
-  void set(Index e, int point, std::size_t k) {
+  template <class At>
+  void set(std::size_t k, const At& at) const {
     const StressOfSection& section = all_[k];
-    const auto at = [&](int c) -> Real& { return stress_.data(6 * point + c)[e]; };
     const Vec n = section.normal;
     const Vec traction(at(0) * n[0] + at(3) * n[1] + at(5) * n[2], at(3) * n[0] + at(1) * n[1] + at(4) * n[2],
                        at(5) * n[0] + at(4) * n[1] + at(2) * n[2]);
     const Real normal = traction.dot(n);
     const Vec shear = section.without_shear ? Vec(traction - normal * n) : Vec(Vec::Zero());
     constexpr int first[] = {0, 1, 2, 0, 1, 2}, second[] = {0, 1, 2, 1, 2, 0};
-    for (int c = 0; c < 6; ++c)
+    for (std::size_t c = 0; c < 6; ++c)
       at(c) += (now_[k] - normal) * n[first[c]] * n[second[c]] - shear[first[c]] * n[second[c]] -
                n[first[c]] * shear[second[c]];
   }
 
-  const ElementGroup& group_;
-  Field<Real>& stress_;
-  int points_;
   std::vector<Index> of_solid_;  ///< into all_, -1: none
   std::vector<StressOfSection> all_;
   std::vector<Real> now_;  ///< of each [M/LT2]
@@ -116,7 +105,7 @@ class SectionStressReader {
     for (const auto& [group, members] : found) {
       if (!check(card, *group, members, section)) return;
       section.solids = members;
-      pass_of(*group).add(section);
+      stress_of(*group).add(section);
     }
   }
 
@@ -191,15 +180,13 @@ class SectionStressReader {
         fmt::format("the stress of solid {} follows from its deformation alone, and cannot be given", id),
         "elastic and plastic materials can have one");
   }
-  SectionStress& pass_of(const ElementGroup& group) {
-    std::shared_ptr<SectionStress>& pass = passes_[&group];
-    if (!pass) {
-      const int points = solids_[static_cast<std::size_t>(group.part)].formulation->points;
-      auto* const stress =
-          dynamic_cast<Field<Real>*>(group.fields.find(points > 1 ? "stress_of_points" : "stress"));
-      pass = world_.passes.add(std::make_shared<SectionStress>(group, *stress, points));
-    }
-    return *pass;
+  SectionStress& stress_of(const ElementGroup& group) {
+    std::shared_ptr<SectionStress>& stress = stresses_[&group];
+    if (stress) return *stress;
+    stress = std::make_shared<SectionStress>(group);
+    for (HoldsStress* forces : world_.passes.all<HoldsStress>())
+      if (&forces->of_group() == &group) forces->hold_by(stress);
+    return *stress;
   }
   void error(const S& card, const char* field, std::string message, std::string hint) {
     deck_.error(diagnostics_, card, field, std::move(message), std::move(hint));
@@ -212,7 +199,7 @@ class SectionStressReader {
   const std::vector<SolidPart>& solids_;
   std::shared_ptr<CrossSections> sections_;
   std::set<Id> taken_;
-  std::map<const ElementGroup*, std::shared_ptr<SectionStress>> passes_;
+  std::map<const ElementGroup*, std::shared_ptr<SectionStress>> stresses_;
 };
 
 void set_section_stresses(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
