@@ -71,11 +71,12 @@ class RangeDamping : public Constraint, public EnergyTerm {
       }
     }
   }
-  void record(World& world, const Clock& clock, EnergyLedger& ledger) override {
+  void record(World&, const Clock& clock, EnergyLedger& ledger) override {
     const MiddleVelocity v(points_, clock);
-    const Real lost = sum(points_.fields().size(),
-                          [&](Index i) -> Real { return -force_->vec(i).dot(v(i)) * clock.dt_mean(); });
-    (void)world;
+    const Real lost = sum(points_.fields().size(), [&](Index i) -> Real {
+      const Vec force = force_->vec(i);  // 0 where others move the point, which may have no mass
+      return force.isZero(0) ? 0 : -force.dot(v(i)) * clock.dt_mean();
+    });
     ledger.dissipated += lost;
     ledger.throughput += std::abs(lost);
   }
