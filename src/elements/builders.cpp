@@ -124,7 +124,8 @@ void build_elements(const Deck& deck, const Model& model, World& world, Diagnost
   }
   ElementOptions options{
       mass_scaling_of(deck), failure_rules(deck, model, that_deform, world.goes_on, diagnostics),
-      stiffness_damping(deck, model, that_deform, by_pressure, diagnostics), has_cross_sections(deck)};
+      stiffness_damping(deck, model, that_deform, by_pressure, diagnostics),
+      stress_ranges(deck, model, that_deform, by_pressure, diagnostics), has_cross_sections(deck)};
   const auto* extent = deck.last<DatabaseExtentBinary>();
   options.strains = extent && extent->strflg != 0;
   add_solid_passes(model, solids, node_of,

@@ -10,6 +10,7 @@
 #include "elements/mass_scaling.hpp"
 #include "keyword/deck.hpp"
 #include "laws/strength/strength.hpp"
+#include "loads/frequency_range.hpp"
 #include "model/model.hpp"
 #include "state/reports.hpp"
 #include "state/world.hpp"
@@ -176,6 +177,7 @@ struct ElementOptions {
   MassScaling scaling;
   std::vector<FailureRules> failure;                ///< by part of the model
   std::vector<Real> stiffness_damping;              ///< COEF by part of the model, 0: none
+  std::vector<FrequencyRange> stress_ranges;        ///< mechanisms of damping by part of the model
   bool sections = false;                            ///< cross sections read forces on corners
   bool strains = false;                             ///< STRFLG: strains at points are kept
   std::vector<std::shared_ptr<Erosion>> eroding{};  ///< out: of groups that may fail

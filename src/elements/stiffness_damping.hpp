@@ -1,11 +1,13 @@
 #pragma once
-// *DAMPING_PART_STIFFNESS: stress against the rate of strain, in proportion to the elastic stiffness.
+// *DAMPING_PART_STIFFNESS and *DAMPING_FREQUENCY_RANGE_DEFORM: stress against the rate of strain, in
+// proportion to the elastic stiffness.
 #include <memory>
 #include <vector>
 
 #include "keyword/deck.hpp"
 #include "laws/point_block.hpp"
 #include "laws/strength/strength.hpp"
+#include "loads/frequency_range.hpp"
 #include "model/model.hpp"
 #include "state/entities.hpp"
 
@@ -19,18 +21,26 @@ std::vector<Real> stiffness_damping(const Deck& deck, const Model& model,
                                     const std::vector<std::shared_ptr<StrengthLaw>>& laws,
                                     const std::vector<bool>& by_pressure, Diagnostics& diagnostics);
 
+/// Mechanisms of *DAMPING_FREQUENCY_RANGE_DEFORM of each part, with the same arguments.
+std::vector<FrequencyRange> stress_ranges(const Deck& deck, const Model& model,
+                                          const std::vector<std::shared_ptr<StrengthLaw>>& laws,
+                                          const std::vector<bool>& by_pressure, Diagnostics& diagnostics);
+
 /// The share of a stable step that is left by damping in proportion to stiffness: velocities lag half a step,
 /// so dt <= (2/w) (sqrt(1 + z^2) - z) with z = beta w/2 at the highest frequency w = 2/dt_0, that is beta
 /// over the step `undamped` = dt_0. [-]; docs/theory_bodies.md
 Real damped_share(Real beta, Real undamped);
+/// The same of mechanisms, which add to the stiffness at the highest frequency.
+Real stiffened_share(const FrequencyRange& range);
 
 /// Elements of a group: the stress sigma + beta C:D, with C of Hooke's law by the bulk and shear modulus at
 /// rest, pushes the nodes, while the law goes on with sigma. beta = COEF dt_0 with the step dt_0 of an
-/// element without damping, or -COEF.
+/// element without damping, or -COEF. Besides, the stress s_k of each mechanism of a range of frequencies,
+/// with s_k' = c_k C:D - s_k/tau_k.
 class StiffnessDamping {
  public:
   /// Adds its fields. `points`: of each element; `tensors`: of them keeps the stress of damping (of solids).
-  StiffnessDamping(Real coef, const ElementGroup& group, int points, int tensors);
+  StiffnessDamping(Real coef, FrequencyRange range, const ElementGroup& group, int points, int tensors);
   void declare(Accesses& a) const;
   /// Component k of the sum at a point, over the group; solids show one point at a time. [M/LT2]
   Real* damped(int point, int k) const { return damped_.data(6 * point + k); }
@@ -51,10 +61,22 @@ class StiffnessDamping {
   void shorten(Index begin, Index count, const Real* undamped, Real* step_limit) const;
 
  private:
+  Real& mechanism(int point, std::size_t k, int component, Index e) const {
+    return mechanisms_->data(6 * (point * static_cast<int>(range_.time.size()) + static_cast<int>(k)) +
+                             component)[e];
+  }
+
+  void turn_mechanisms(int point, Index e, const Vec& half_turn) const;
+  /// beta times the rate of elastic stress, and the stress of the mechanisms, which go on by a step.
+  Real damping_stress(int point, int component, Index e, Real elastic_rate, const FrequencyRange::Step& step,
+                      Real dt) const;
+
   Real coef_;
-  Field<Real>& beta_;               ///< of each element [T]
-  Field<Real>& damped_;             ///< the sum
-  Field<Real>* damping_ = nullptr;  ///< beta C:D of solids, of each point
+  FrequencyRange range_;
+  Field<Real>& beta_;                  ///< of each element [T]
+  Field<Real>& damped_;                ///< the sum
+  Field<Real>* damping_ = nullptr;     ///< stress of damping of solids, of each point
+  Field<Real>* mechanisms_ = nullptr;  ///< null: no range of frequencies
 };
 
 }  // namespace courant

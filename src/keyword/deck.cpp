@@ -4,6 +4,7 @@
 
 #include "keyword/read/number.hpp"
 #include "keyword/read/parameters.hpp"
+#include "keyword/read/variant_card.hpp"
 #include "keyword/registry.hpp"
 #include "keyword/source.hpp"
 
@@ -68,7 +69,8 @@ Location locate(const KeywordSpec& spec, const Entry& entry, FieldPlace place, D
     if (extra && !data.done()) data.step();
   if (match.mpp) skip_mpp_lines(data);
   for (std::size_t c = 0; c < place.card && !data.done(); ++c)
-    if (!spec.cards[c].when || spec.cards[c].when(entry)) skip_card(data, spec.cards[c]);
+    if ((!spec.cards[c].when || spec.cards[c].when(entry)) && !is_absent_variant(spec, c, data.line()))
+      skip_card(data, spec.cards[c]);
   if (data.done()) return line;
   std::vector<Slice> slices;
   if (spec.cards[place.card].repeat) {

@@ -13,6 +13,7 @@
 #include "extension/additions.hpp"
 #include "keyword/registry.hpp"
 #include "loads/load_cards.hpp"
+#include "model/cards.hpp"
 #include "model/transforms/transformation.hpp"
 #include "state/shared_fields.hpp"
 #include "state/tied_mass.hpp"

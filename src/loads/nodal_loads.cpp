@@ -106,12 +106,15 @@ class NodalLoadReader {
       Index at = -1;
       for (Index i = 0; i < world_.nodes.size(); ++i)
         if (world_.nodes.id[i] == id) at = i;
-      if (at < 0) {
-        error(card, field, fmt::format("node {} belongs to no element or body", id),
-              "the normal of M1, M2, M3 is the direction: name nodes that move");
+      const auto of_model = node_of_id_.find(id);
+      if (at < 0 && of_model == node_of_id_.end()) {
+        error(card, field, fmt::format("node {} does not exist", id),
+              "the normal of M1, M2, M3 is the direction: define it with *NODE");
         return false;
       }
-      x[k] = world_.nodes.x.vec(at), (*load.follows)[k++] = at;
+      // nodes of no element or body rest: -1 - index into Model::nodes
+      x[k] = at < 0 ? model_.nodes[static_cast<std::size_t>(of_model->second)].x : world_.nodes.x.vec(at);
+      (*load.follows)[k++] = at < 0 ? -1 - of_model->second : at;
     }
     const Vec a = x[1] - x[0], b = x[2] - x[0];
     constexpr Real least_sine = 1e-6;
@@ -168,8 +171,13 @@ using Loads = std::vector<std::size_t>;
 
 class NodalForces : public Force, public EnergyTerm {
  public:
-  NodalForces(std::vector<NodalLoad> loads, std::vector<Loads> groups, Points points, Field<Index>& group)
-      : loads_(std::move(loads)), groups_(std::move(groups)), points_(points), group_(group) {}
+  NodalForces(const Model& model, std::vector<NodalLoad> loads, std::vector<Loads> groups, Points points,
+              Field<Index>& group)
+      : loads_(std::move(loads)), groups_(std::move(groups)), points_(points), group_(group) {
+    for (const NodalLoad& load : loads_)
+      for (const Index node : load.follows.value_or(std::array<Index, 3>{}))
+        if (node < 0) resting_[node] = model.nodes[static_cast<std::size_t>(-1 - node)].x;
+  }
   std::string name() const override { return "forces on " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World& world, Accesses& a) const override {
@@ -210,12 +218,16 @@ class NodalForces : public Force, public EnergyTerm {
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
  private:
-  static Vec direction_of(const NodalLoad& load, const World& world) {
+  Vec direction_of(const NodalLoad& load, const World& world) const {
     if (!load.follows) return load.direction;
-    const auto x = [&](std::size_t k) { return world.nodes.x.vec((*load.follows)[k]); };
+    const auto x = [&](std::size_t k) -> Vec {
+      const Index node = (*load.follows)[k];
+      return node < 0 ? resting_.at(node) : world.nodes.x.vec(node);
+    };
     return Vec(x(1) - x(0)).cross(Vec(x(2) - x(0))).normalized();
   }
   const Vec& force(Index i) const { return forces_[static_cast<std::size_t>(group_[i])]; }
+  std::map<Index, Vec> resting_;  ///< nodes of M1, M2, M3 below 0
   std::vector<NodalLoad> loads_;
   std::vector<Loads> groups_;  ///< the first one is empty
   Points points_;
@@ -269,7 +281,7 @@ std::shared_ptr<Force> make_nodal_loads(const std::vector<NodalLoad>& loads, con
   auto& group =
       points.set->add<Index>({.name = points.turns ? "nodal_moments" : "nodal_loads", .dimension = "-"});
   for (std::size_t i = 0; i < node.size(); ++i) group[static_cast<Index>(i)] = group_of[i];
-  return std::make_shared<NodalForces>(loads, std::move(groups), points, group);
+  return std::make_shared<NodalForces>(model, loads, std::move(groups), points, group);
 }
 
 }  // namespace courant

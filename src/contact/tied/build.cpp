@@ -157,7 +157,8 @@ class TiedBuilder {
       if (by_option && c.option != 1 && !(value > 0))
         error(c, field, fmt::format("expected a number > 0, got '{:g}'", value),
               "only OPTION 1 holds for ever");
-    if (softens(c) ? !(c.param > 0) : c.param != 0)
+    // with OPTION 2 and 4: no offset by thickness; other values, and those of OPTION 1 and 3, change nothing
+    if (softens(c) ? !(c.param > 0) : by_option ? c.option == 2 && c.param == 1 : c.param != 0)
       error(c, "PARAM", fmt::format("expected {}, got '{:g}'", softens(c) ? "an opening > 0" : "0", c.param),
             "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
     if (c.bt > 0) error(c, "BT", "what holds from the start has no birth", "leave it blank");

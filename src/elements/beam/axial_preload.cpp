@@ -20,13 +20,6 @@ namespace {
 using IA = InitialAxialForceBeam;
 const RegisterKeyword<IA> initial_axial_force_beam{initial_axial_force_beam_table()};
 
-/// The last point, or the one from which the curve falls to 0.
-Real end_of(const Curve& curve) {
-  for (std::size_t k = 1; k < curve.ordinate.size(); ++k)
-    if (curve.ordinate[k] == 0 && curve.ordinate[k - 1] != 0) return curve.abscissa[k - 1];
-  return curve.abscissa.back();
-}
-
 class ForceReader {
  public:
   ForceReader(const Deck& deck, const Model& model, std::vector<BeamPart>& parts, Diagnostics& diagnostics)
@@ -44,7 +37,7 @@ class ForceReader {
     if (set == sets.end())
       error(card, "BSID", fmt::format("beam set {} does not exist", card.bsid), "define it with *SET_BEAM");
     if (set == sets.end() || !curve || curve->silent) return;
-    AxialPreload::AxialForce force{*curve, end_of(*curve), card.kbend != 0};
+    AxialPreload::AxialForce force{*curve, end_of_preload(*curve), card.kbend != 0};
     for (Real& f : force.curve.ordinate) f *= card.scale;
     for (const Id id : set->eids)
       if (!add(card, id, force)) return;
@@ -99,6 +92,12 @@ class ForceReader {
 };
 
 }  // namespace
+
+Real end_of_preload(const Curve& curve) {
+  for (std::size_t k = 1; k < curve.ordinate.size(); ++k)
+    if (curve.ordinate[k] == 0 && curve.ordinate[k - 1] != 0) return curve.abscissa[k - 1];
+  return curve.abscissa.back();
+}
 
 void AxialPreload::add(std::size_t beams, std::size_t e, const AxialForce& force) {
   of_beam_.resize(beams, -1);

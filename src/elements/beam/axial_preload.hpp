@@ -14,6 +14,9 @@ struct BeamPart;
 struct BeamMeasures;
 struct SectionPoint;
 
+/// When a preload by a curve ends: with its last point, or with the one from which it falls to 0. [T]
+Real end_of_preload(const Curve& curve);
+
 /// Of the beams of a part, by element of their group.
 class AxialPreload {
  public:

@@ -7,6 +7,7 @@
 
 #include "base/run_error.hpp"
 #include "elements/beam/beam_axes.hpp"
+#include "elements/beam/beam_damping.hpp"
 #include "elements/beam/beam_frame.hpp"
 #include "elements/beam/beams.hpp"
 #include "elements/beam/elastic_beam.hpp"
@@ -14,7 +15,6 @@
 #include "elements/element_report.hpp"
 #include "elements/mass_scaling.hpp"
 #include "elements/null_elements.hpp"
-#include "elements/stiffness_damping.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
@@ -49,6 +49,7 @@ class BeamForces : public Material,
         ends_(add("end_orientations", "-", 8)),
         stress_(add("point_stress", "M/LT2", std::max<int>(1, 3 * static_cast<int>(part_.points.size())))),
         energy_(group_.fields.add<Real>({.name = "internal_energy", .dimension = "ML2/T2", .output = true})),
+        damping_(options.stiffness_damping[at(group_.part)], options.stress_ranges[at(group_.part)], group_),
         steps_(static_cast<std::size_t>(group_.size())),
         why_(part_.weld ? static_cast<std::size_t>(group_.size()) : 0),
         folded_(static_cast<std::size_t>(group_.size()), 0) {
@@ -68,11 +69,6 @@ class BeamForces : public Material,
     if (shown) add_shown_fields();
     if (part_.weld) sections_.emplace(*part_.weld, group_);
     scale_masses(scaling_of(part_, options.scaling), world);
-    coef_ = options.stiffness_damping[at(group_.part)];
-    if (coef_ != 0) {
-      damping_ = &add("damping_forces", "-", count6), beta_ = &add("stiffness_damping_time", "T", 1);
-      beta_->fill(coef_ < 0 ? -coef_ : 0);
-    }
     const FailureRules& rules = options.failure[at(group_.part)];
     if (rules.any() || (part_.weld && part_.weld->fails())) make_erosion(rules, options, world);
   }
@@ -88,7 +84,7 @@ class BeamForces : public Material,
     if (sections_) sections_->declare(a);
     if (scaled_) a.reads(scaled_->inertial());
     if (erosion_) erosion_->declare(world, a);
-    if (damping_) a.updates(*damping_).updates(*beta_);
+    damping_.declare(a);
   }
 
   void finish(World&, const Clock& clock) override {
@@ -401,14 +397,14 @@ class BeamForces : public Material,
     const Six& now = change.now[at(i)];
     Six g = change.after[at(i)];
     const Real pull = g[elongation];
-    const Six damping = damping_ ? damped(clock, e, change_of(e, now)) : Six{};
-    Real work = damping_ ? work_of_damping(e, change_of(e, now), damping) : 0;
+    Real work = 0;
+    const Six damping = damping_.any() ? damped(clock, e, change_of(e, now), work) : Six{};
     for (int k = 0; k < count6; ++k) {
       work += 0.5 * (answer_.data(k)[e] + g[at(k)]) * (now[at(k)] - deformation_.data(k)[e]);
       answer_.data(k)[e] = g[at(k)], deformation_.data(k)[e] = now[at(k)];
     }
     energy_[e] += work;
-    for (int k = 0; damping_ && k < count6; ++k) g[at(k)] += damping[at(k)];
+    for (int k = 0; damping_.any() && k < count6; ++k) g[at(k)] += damping[at(k)];
     const TurnedEnds& turned = change.turned[at(i)];
     NodalForces on{g[elongation] * turned.frame.axes.col(0)};
     if (turns_)
@@ -420,25 +416,15 @@ class BeamForces : public Material,
     }
     steps_[at(e)] = step_of(e, turned.frame.length, pull) *
                     (turns_ ? bent_step(turned, part_.measures[at(e)].thickness2(start_[e])) : 1);
-    if (!damping_) return;
-    (*beta_)[e] = coef_ > 0 ? coef_ * steps_[at(e)] : -coef_;
-    steps_[at(e)] *= damped_share((*beta_)[e], steps_[at(e)]);
+    if (damping_.any()) damping_.shorten(e, steps_[at(e)]);
   }
-  /// beta times the rates of the end forces of an elastic beam.
-  Six damped(const Clock& clock, Index e, const Six& d) const {
-    Six out = part_.kind == BeamKind::resultant
-                  ? resultants(e, d)
-                  : integrated_end_forces({E_, G_, start_[e]}, part_, part_.measures[at(e)], d);
-    for (Real& f : out) f *= clock.dt_old > 0 ? (*beta_)[e] / clock.dt_old : 0;
-    return out;
-  }
-  Real work_of_damping(Index e, const Six& d, const Six& now) {
-    Real work = 0;
-    for (int k = 0; k < count6; ++k) {
-      work += 0.5 * (damping_->data(k)[e] + now[at(k)]) * d[at(k)];
-      damping_->data(k)[e] = now[at(k)];
-    }
-    return work;
+  /// Forces of damping on the ends, by those of an elastic beam.
+  Six damped(const Clock& clock, Index e, const Six& d, Real& work) {
+    return damping_.forces(clock, e, d,
+                           part_.kind == BeamKind::resultant
+                               ? resultants(e, d)
+                               : integrated_end_forces({E_, G_, start_[e]}, part_, part_.measures[at(e)], d),
+                           work);
   }
 
   void add_shown_fields() {
@@ -467,17 +453,16 @@ class BeamForces : public Material,
   Field<Real>& ends_;    ///< axes of the ends: quaternions w x y z, of end 1 and 2
   Field<Real>& stress_;  ///< of each point xx, xs, xt
   Field<Real>& energy_;
+  BeamDamping damping_;
   std::vector<Field<Real>*> history_;  ///< of the first point, of the second, ...
   std::size_t numbers_ = 0;            ///< of them, a point
   std::vector<Real> steps_;
-  std::optional<WeldSections> sections_;             ///< of welds
-  std::unique_ptr<ScaledMass> scaled_;               ///< null: none
-  Real coef_ = 0;                                    ///< of damping in proportion to stiffness
-  Field<Real>*damping_ = nullptr, *beta_ = nullptr;  ///< null: none; its end forces, and its time [T]
-  std::shared_ptr<Erosion> erosion_;                 ///< null: nothing fails
-  int plastic_ = -1, fails_ = -1;  ///< of a point's numbers the plastic strain, and what it fails by
-  std::vector<std::string> why_;   ///< welds fail in this step
-  std::vector<char> folded_;       ///< ends turned so far that their sense is unknown
+  std::optional<WeldSections> sections_;  ///< of welds
+  std::unique_ptr<ScaledMass> scaled_;    ///< null: none
+  std::shared_ptr<Erosion> erosion_;      ///< null: nothing fails
+  int plastic_ = -1, fails_ = -1;         ///< of a point's numbers the plastic strain, and what it fails by
+  std::vector<std::string> why_;          ///< welds fail in this step
+  std::vector<char> folded_;              ///< ends turned so far that their sense is unknown
   Field<Real>* shown_pull_ = nullptr;
   std::array<Field<Real>*, 2> shown_moment_{};
   std::vector<std::pair<Field<Real>*, std::size_t>> shown_history_;

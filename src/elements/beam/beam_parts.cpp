@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "elements/beam/beams.hpp"
 #include "elements/beam/integration_beam.hpp"
@@ -127,7 +129,7 @@ class BeamReader {
                       "give NRS and NRT");
     }
     if (out.kind == BeamKind::integrated)
-      out.points = s.rule < 0 ? points_of_rule(s) : section_points(static_cast<int>(s.rule), s.tube());
+      out.points = rule_of(s) ? points_of_rule(s) : section_points(static_cast<int>(s.rule), s.tube());
     if (out.kind == BeamKind::truss) out.points = {SectionPoint()};
     for (const ModelBeam& beam : model_.beams)
       if (beam.part == out.part) add(beam, s, out);
@@ -158,7 +160,7 @@ class BeamReader {
         const auto whole = measures_of(beam, s, BeamKind::integrated);
         if (!whole) continue;
         m = *whole;
-      } else if (m.A = beam.measures[0] > 0 ? beam.measures[0] : s.a; !(m.A > 0)) {
+      } else if (m.A = beam.measures[0] > 0 ? beam.measures[0] : area_of(s); !(m.A > 0)) {
         error(s, "A", fmt::format("beam {} has no area", beam.id),
               "measures are in the second line of *SECTION_BEAM, or in *ELEMENT_BEAM_THICKNESS");
         continue;
@@ -184,6 +186,10 @@ class BeamReader {
       deck_.warning(diagnostics_, s, "ELFORM",
                     fmt::format("{} is not supported: {} is used instead", s.elform, s.used()),
                     "the same formulation by its own number says the same without this warning");
+    if (!s.stype.empty() && s.used() > 0) {
+      if (!check_standard(s)) good = false, refused_.insert(&s);
+      return good;
+    }
     if (s.used() != 1 && s.rule < 0)
       deck_.warning(diagnostics_, s, "QR/IRID", fmt::format("has no effect with ELFORM {}", s.elform),
                     "a rule of *INTEGRATION_BEAM is for ELFORM 1");
@@ -200,6 +206,40 @@ class BeamReader {
       refuse("CST", fmt::format("'{:g}' is not supported", s.cst),
              "0 for a rectangle, 1 for a tube; 2 goes with a rule of *INTEGRATION_BEAM");
     return good;
+  }
+
+  /// SECTION_01 ... in the second line: a rule of *INTEGRATION_BEAM with that ICST.
+  bool check_standard(const SectionBeam& s) {
+    constexpr std::string_view word = "SECTION_";
+    std::string type = s.stype;
+    for (char& c : type) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    IntegrationBeam rule;
+    if (type.compare(0, word.size(), word) != 0 || type.size() > word.size() + 2)
+      return error(s, "STYPE", fmt::format("'{}' is no standard section", s.stype),
+                   "SECTION_01 to SECTION_11");
+    for (const char c : type.substr(word.size())) rule.icst = 10 * rule.icst + (c - '0');
+    rule.d1 = s.d1, rule.d2 = s.d2, rule.d3 = s.d3, rule.d4 = s.d4, rule.k = 1;
+    std::string why;
+    const StandardSection section = standard_section(rule.icst, rule.dimensions(), rule.k, why);
+    if (section.cells.empty())
+      return error(s, rule.icst < 1 || rule.icst == 10 || rule.icst > 11 ? "STYPE" : "D1", std::move(why),
+                   "or give the area and second moments, with ELFORM 2");
+    const StandardSection::Moments m = section.moments();
+    constexpr Real round_off = 1e-9;
+    if (s.used() == 2 && std::abs(m.st) > round_off * (m.ss + m.tt))
+      return error(s, "STYPE", fmt::format("the axes s and t of {} are not its principal axes", s.stype),
+                   "ELFORM 1 takes it");
+    const IntegrationBeam* kept = &own_rules_.emplace(&s, rule).first->second;
+    standard_[kept] = section;
+    return true;
+  }
+  /// Null: the section has points of its own.
+  const IntegrationBeam* rule_of(const SectionBeam& s) const {
+    if (const auto own = own_rules_.find(&s); own != own_rules_.end()) return &own->second;
+    return s.rule < 0 ? rules_.at(static_cast<Id>(-s.rule)) : nullptr;
+  }
+  Real area_of(const SectionBeam& s) const {
+    return s.stype.empty() ? s.a : standard_.at(rule_of(s)).moments().area;
   }
 
   /// The rule that a section names.
@@ -252,7 +292,7 @@ class BeamReader {
   }
   /// In shares of half the widths, and of the area.
   std::vector<SectionPoint> points_of_rule(const SectionBeam& s) const {
-    const IntegrationBeam& rule = *rules_.at(static_cast<Id>(-s.rule));
+    const IntegrationBeam& rule = *rule_of(s);
     std::vector<SectionPoint> out;
     if (rule.icst == 0) {
       Real sum = 0;
@@ -270,7 +310,7 @@ class BeamReader {
   /// Of a section whose points are known; `ts`, `tt`: widths of the beam, of which a standard section has its
   /// own.
   BeamMeasures measures_of_rule(const SectionBeam& s, Real ts, Real tt) const {
-    const IntegrationBeam& rule = *rules_.at(static_cast<Id>(-s.rule));
+    const IntegrationBeam& rule = *rule_of(s);
     BeamMeasures m;
     m.A = rule.ra * ts * tt, m.half_s = ts / 2, m.half_t = tt / 2;
     if (rule.icst > 0) {
@@ -300,7 +340,12 @@ class BeamReader {
             "only cables (ELFORM 6) have an offset there");
     BeamMeasures m;
     if (kind == BeamKind::truss) {
-      m.A = own(0, s.a);
+      m.A = own(0, area_of(s));
+    } else if (kind == BeamKind::resultant && !s.stype.empty()) {
+      const StandardSection& section = standard_.at(rule_of(s));
+      const StandardSection::Moments of = section.moments();
+      m.A = own(0, of.area), m.Iss = own(1, of.ss), m.Itt = own(2, of.tt), m.J = own(3, section.torsion);
+      m.shear_area = own(4, section.shear);
     } else if (kind == BeamKind::resultant) {
       m.A = own(0, s.a), m.Iss = own(1, s.iss), m.Itt = own(2, s.itt), m.J = own(3, s.j);
       m.shear_area = own(4, s.sa);
@@ -309,9 +354,9 @@ class BeamReader {
     } else {
       const Real ts1 = own(0, s.ts1), ts2 = own(1, s.ts2), tt1 = own(2, s.tt1), tt2 = own(3, s.tt2);
       const Real ts = 0.5 * (ts1 + (ts2 > 0 ? ts2 : ts1)), tt = 0.5 * (tt1 + (tt2 > 0 ? tt2 : tt1));
-      if (s.rule < 0) {
+      if (const IntegrationBeam* rule = rule_of(s)) {
         m = measures_of_rule(s, ts, tt);
-        if (rules_.at(static_cast<Id>(-s.rule))->icst > 0 && beam.measures[0] > 0)
+        if (rule->icst > 0 && beam.measures[0] > 0)
           deck_.warning(diagnostics_, beam.card, "PARM1",
                         "widths of *ELEMENT_BEAM_THICKNESS have no effect on a standard section (ICST)",
                         "give D1 to D4 of *INTEGRATION_BEAM");
@@ -410,6 +455,7 @@ class BeamReader {
   bool whole_ = true;  ///< the cards of materials
   std::map<Id, const SectionBeam*> sections_;
   std::map<Id, const IntegrationBeam*> rules_;
+  std::map<const SectionBeam*, IntegrationBeam> own_rules_;  // of standard sections in *SECTION_BEAM
   std::map<const IntegrationBeam*, StandardSection> standard_;
   std::map<Id, std::pair<std::shared_ptr<StrengthLaw>, std::string>> laws_;
   std::set<const SectionBeam*> checked_, refused_;

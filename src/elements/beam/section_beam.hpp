@@ -5,6 +5,8 @@ namespace courant {
 
 struct SectionBeam : Entry {
   std::string title;
+  std::string stype;                                    ///< "SECTION_01" ...; empty: measures are given
+  Real d1 = 0, d2 = 0, d3 = 0, d4 = 0, d5 = 0, d6 = 0;  ///< of the standard section
   Id secid = 0;
   int elform = 1, naupd = 0;
   Real shrf = 1, rule = 2, cst = 0, scoor = 0, nsm = 0;

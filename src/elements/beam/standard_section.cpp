@@ -71,11 +71,53 @@ void cut_profile(int icst, Real w, Real d, Real tf, Real tw, Cutter& cut) {
   if (icst == 1 || icst == 4 || icst == 6) cut.rectangle(-tw / 2, tw / 2, below, above);
 }
 
+/// A rectangle: Roark's fit, within 0.5 % of the series.
+Real torsion_of_rectangle(Real a, Real b) {
+  const Real ratio = std::min(a, b) / std::max(a, b);
+  const Real fit = 1.0 / 3 - 0.21 * ratio * (1 - std::pow(ratio, 4) / 12);
+  return fit * std::max(a, b) * std::pow(std::min(a, b), 3);
+}
+
+void twist_and_shear(int icst, const std::array<Real, 4>& d, StandardSection& out) {
+  const Real area = out.moments().area;
+  out.shear = 5.0 / 6 * area;
+  if (icst == 5) {
+    const Real w = d[0] - d[3], h = d[2] - d[1];
+    out.torsion = 2 * w * w * h * h / (w / d[1] + h / d[3]);
+    out.shear = 2 * d[3] * d[2];
+  } else if (icst <= 6) {
+    const int flanges = icst == 3 || icst == 4 ? 1 : 2;
+    out.torsion = (flanges * d[0] * std::pow(d[1], 3) + (d[2] - flanges * d[1]) * std::pow(d[3], 3)) / 3;
+    out.shear = d[3] * d[2];
+  } else if (icst == 7) {
+    const auto m = out.moments();
+    out.torsion = std::pow(area, 4) / (40 * (m.ss + m.tt));
+  } else if (icst == 11) {
+    out.torsion = torsion_of_rectangle(d[0], d[1]);
+  } else {
+    out.torsion = pi / 2 * (std::pow(d[0], 4) - (icst == 9 ? std::pow(d[1], 4) : 0));
+    out.shear = (icst == 9 ? 0.5 : 0.9) * area;
+  }
+}
+
 }  // namespace
+
+StandardSection::Moments StandardSection::moments() const {
+  Moments out;
+  Real s = 0, t = 0;
+  for (const SectionCell& cell : cells)
+    out.area += cell.area, s += cell.area * cell.s, t += cell.area * cell.t;
+  s /= out.area, t /= out.area;
+  for (const SectionCell& cell : cells) {
+    out.ss += cell.area * (cell.t - t) * (cell.t - t), out.tt += cell.area * (cell.s - s) * (cell.s - s);
+    out.st += cell.area * (cell.s - s) * (cell.t - t);
+  }
+  return out;
+}
 
 StandardSection standard_section(int icst, const std::array<Real, 4>& d, int refinement, std::string& why) {
   Cutter cut(refinement);
-  StandardSection out{d[0], d[2], {}};
+  StandardSection out{.width_s = d[0], .width_t = d[2]};
   const auto refuse = [&](std::string text) {
     why = std::move(text);
     return StandardSection{};
@@ -105,6 +147,7 @@ StandardSection standard_section(int icst, const std::array<Real, 4>& d, int ref
     return refuse(fmt::format("'{}' is not supported: 1 to 9 and 11 are", icst));
   }
   out.cells = std::move(cut.out);
+  twist_and_shear(icst, d, out);
   return out;
 }
 

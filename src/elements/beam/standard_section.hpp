@@ -17,6 +17,16 @@ struct SectionCell {
 struct StandardSection {
   Real width_s = 0, width_t = 0;  ///< of its box [L]
   std::vector<SectionCell> cells{};
+  /// Of Saint-Venant's torsion [L4]: thin open profiles sum b t^3/3, closed ones by Bredt, a rectangle and a
+  /// circle exactly, a trapezoid by A^4/(40 Ip).
+  Real torsion = 0;
+  Real shear = 0;  ///< area of shear: webs of profiles, 5/6, 0.9 (circle), 1/2 (tube) of A [L2]
+
+  /// About the centroid: area [L2], second moments about s, about t, and the product moment [L4].
+  struct Moments {
+    Real area = 0, ss = 0, tt = 0, st = 0;
+  };
+  Moments moments() const;
 };
 
 /// `d`: D1 to D4. 1 to 6 have the width D1 along s, the depth D3 along t, flanges D2 and a web D4 thick: I; a

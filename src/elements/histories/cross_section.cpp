@@ -67,6 +67,12 @@ bool CuttingPlane::contains(const Vec& point, Real tolerance) const {
   return within(r.dot(edge), length_l) && within(r.dot(normal.cross(edge)), length_m);
 }
 
+std::vector<ReportedElement> CrossSection::elements() const {
+  std::vector<ReportedElement> out;
+  for (const Cut& cut : cuts_) out.push_back(cut.element);
+  return out;
+}
+
 Vec CrossSection::CutPoint::at(const World& world) const {
   return world.nodes.x.vec(a) + share * (world.nodes.x.vec(b) - world.nodes.x.vec(a));
 }
@@ -105,6 +111,7 @@ void CrossSection::add(const ReportedElement& element, const World& world, const
 
 CrossSection::CrossSection(const std::vector<ReportedElement>& elements, const CuttingPlane& plane,
                            const World& world) {
+  normal = plane.normal;
   constexpr Real relative = 1e-6;  // of an element, within which its nodes are on the plane
   for (const ReportedElement& one : elements) {
     const ElementGroup& group = one.reporter->reported();

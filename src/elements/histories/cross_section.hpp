@@ -36,7 +36,10 @@ class CrossSection {
                const World& world);
   bool empty() const { return cuts_.empty(); }
   SectionForce force(const World& world) const;
+  /// Those that are cut.
+  std::vector<ReportedElement> elements() const;
 
+  Vec normal = Vec::Zero();  ///< of the plane at the start; 0: of a section by sets
   Id id = 0;
   std::string title{};
   Id system = 0;                     ///< of the axes below; 0: global

@@ -161,7 +161,7 @@ class SectionReader {
 
 void build_sections(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {
   const bool any = has_cross_sections(deck);
-  if (any) world.passes.add(SectionReader(deck, model, world, diagnostics).read());
+  if (any) world.passes.add(read_cross_sections(deck, model, world, diagnostics));
   const auto* card = deck.last<DatabaseSecforc>();
   if (card && card->dt > 0 && !any)
     deck.warning(diagnostics, *card, "DT", "there is no cross section: secforc holds no values",
@@ -232,6 +232,11 @@ const RegisterAsciiHistory secforc{
      .binary = binary_in<DatabaseSecforc>}};
 
 }  // namespace
+
+std::shared_ptr<CrossSections> read_cross_sections(const Deck& deck, const Model& model, const World& world,
+                                                   Diagnostics& diagnostics) {
+  return SectionReader(deck, model, world, diagnostics).read();
+}
 
 bool has_cross_sections(const Deck& deck) {
   return !deck.all<CrossSectionPlaneCard>().empty() || !deck.all<CrossSectionSetCard>().empty();

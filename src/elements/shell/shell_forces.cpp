@@ -80,8 +80,10 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
     start(world, {});
     if (options.scaling.step > 0) scale_masses(options.scaling, world);
     limit_to_frequency(held, world);
-    if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0)
-      damping_ = std::make_unique<StiffnessDamping>(coef, group_, state_.points, 0);
+    const auto of_part = static_cast<std::size_t>(group.part);
+    const Real coef = options.stiffness_damping[of_part];
+    if (const FrequencyRange& range = options.stress_ranges[of_part]; coef != 0 || range.any())
+      damping_ = std::make_unique<StiffnessDamping>(coef, range, group_, state_.points, 0);
     FailureRules rules = rules_of_layers(part, options.failure[static_cast<std::size_t>(group.part)]);
     rules.distorted = part.distorted == DistortedShells::deleted;
     if (rules.any()) options.eroding.push_back(erosion_ = make_erosion(rules, world));

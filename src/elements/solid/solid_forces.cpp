@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "elements/element_report.hpp"
+#include "elements/held_stress.hpp"
 #include "elements/largest_frequency.hpp"
 #include "elements/point_strains.hpp"
 #include "elements/solid/full_points.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 /// Solids of a part: strain rates of the last motion, the law, hourglass control, bulk viscosity, and the
 /// forces on the corners, which a pass over the nodes gathers. Formulae: in the files of the formulations.
-class SolidForces : public Material, public TimeLimit, public SolidReports {
+class SolidForces : public Material, public TimeLimit, public SolidReports, public HoldsStress {
  public:
   SolidForces(const SolidPart& part, const ElementGroup& group, Id part_id, Real tssfac,
               const ReferenceGeometry& reference, ElementOptions& options,
@@ -59,8 +60,10 @@ class SolidForces : public Material, public TimeLimit, public SolidReports {
       for (Index e = 0; e < group_.size(); ++e) take_density(e);
     }
     limit_to_frequency(held, world);
-    if (const Real coef = options.stiffness_damping[static_cast<std::size_t>(group.part)]; coef != 0) {
-      damping_ = std::make_unique<StiffnessDamping>(coef, group_, 1, part.formulation->points);
+    const auto of_part = static_cast<std::size_t>(group.part);
+    const Real coef = options.stiffness_damping[of_part];
+    if (const FrequencyRange& range = options.stress_ranges[of_part]; coef != 0 || range.any()) {
+      damping_ = std::make_unique<StiffnessDamping>(coef, range, group_, 1, part.formulation->points);
       if (full_) full_->damp_by(damping_.get());
     }
     if (part.pressure) start_pressure();
@@ -90,7 +93,11 @@ class SolidForces : public Material, public TimeLimit, public SolidReports {
     a.in_finish().updates(rho0_);
   }
 
-  void start(World& world, const Clock&) override {
+  const ElementGroup& of_group() const override { return group_; }
+  void hold_by(std::shared_ptr<HeldStress> stress) override { held_ = std::move(stress); }
+
+  void start(World& world, const Clock& clock) override {
+    if (held_) held_->start(clock.t);
     for (int k = 0; k < 3; ++k) mesh_.x[k] = world.nodes.x.data(k), mesh_.v[k] = world.nodes.v.data(k);
     for (int c = 0; c < group_.corners(); ++c) mesh_.corner[c] = group_.node.data(c);
     for (int k = 0; k < 6; ++k) state_.stress[k] = stress_.data(k);
@@ -227,6 +234,7 @@ class SolidForces : public Material, public TimeLimit, public SolidReports {
 
   /// Behind the law at a point.
   void answered(const PointBlock& points, Index begin, int point, const Clock* failing) const {
+    if (held_) held_->hold(point, begin, points);
     if (failing) look_for_failure(points, begin, point, *failing);
     if (strains_ && !failure_strain()) strains_->advance(point, begin, points);
     if (scaled_)  // waves of a body that is as stiff and denser
@@ -413,6 +421,7 @@ class SolidForces : public Material, public TimeLimit, public SolidReports {
   std::vector<SolidPressure::Faults> of_pressure_;
   std::shared_ptr<NodalPressure> nodal_;       ///< null: pressures are those of elements
   std::unique_ptr<StiffnessDamping> damping_;  ///< null: none
+  std::shared_ptr<HeldStress> held_;           ///< null: none
   /// Of the law's numbers the plastic strain, and what it fails by.
   int plastic_ = -1, fails_ = -1;
   Index inside_out_ = -1;  ///< an element that is so in the reference geometry; -1: none

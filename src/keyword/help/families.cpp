@@ -147,7 +147,7 @@ constexpr Family families[] = {
     {"INITIAL_VOLUME_FRACTION", "volume fractions of ALE meshes"},
     {"INTEGRATION", "user-defined integration rules"},
     {"INTERFACE", "interface files"},
-    {"INTERFACE_SPRINGBACK", "springback in the run"},
+    {"INTERFACE_SPRINGBACK", "analyses of springback in the run"},
     {"LOAD", "this load"},
     {"LOAD_BEAM", "loads on beams"},
     {"LOAD_BLAST", "blast loads"},
@@ -287,9 +287,22 @@ constexpr std::size_t slip_of_the_pen = 2, shortest_for_two = 8;
 }  // namespace
 
 std::vector<std::string> output_requests() {
-  return {"DATABASE",      "CONTROL_OUTPUT", "CONTROL_PARALLEL",    "CONTROL_MPP",
-          "CONTROL_UNITS", "CONTROL_LSDA",   "CONTROL_DEBUG",       "CONTROL_REQUIRE_REVISION",
-          "LSO",           "ELEMENT_PLOTEL", "INTERFACE_COMPONENT", "INTERFACE_SPRINGBACK_LSDYNA",
+  return {"DATABASE",
+          "CONTROL_OUTPUT",
+          "CONTROL_PARALLEL",
+          "CONTROL_MPP",
+          "CONTROL_UNITS",
+          "CONTROL_LSDA",
+          "CONTROL_DEBUG",
+          "CONTROL_REQUIRE_REVISION",
+          "LSO",
+          "ELEMENT_PLOTEL",
+          "INTERFACE_COMPONENT",
+          "INTERFACE_SPRINGBACK_LSDYNA",
+          "INTERFACE_SPRINGBACK_NASTRAN",
+          "INTERFACE_SPRINGBACK_DYNA3D",
+          "INTERFACE_SPRINGBACK_NIKE3D",
+
           "INITIAL_STRAIN"};
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/utf8.hpp"
 #include "keyword/read/number.hpp"
+#include "keyword/read/variant_card.hpp"
 
 namespace courant {
 
@@ -155,6 +156,7 @@ void CardReader::read_cards(DataLines& data, EntrySink& sink) {
       while (!data.done()) data.step();
       return;
     }
+    if (!data.done() && is_absent_variant(*spec_, c, data.line())) continue;
     if (data.done()) {
       if (!card.optional) {
         missing(data, fmt::format("card {}", c + 1));

@@ -233,7 +233,7 @@ std::string purpose_of(SetKind kind, SetForm form) {
       "set of {}s, taken in row by row with {}, or out with D in front of the word (not DALL); an element is "
       "in a box if all its nodes are{}",
       word, fmt::join(set_words(kind), ", "),
-      kind == SetKind::segment ? "; of solids the faces that no other solid shares, outward" : "");
+      kind == SetKind::segment ? "; of solids the faces that no other of the part shares, outward" : "");
 }
 
 std::vector<std::string> names_of(SetKind kind, SetForm form) {

@@ -77,17 +77,12 @@ class SetResolver {
   Found everything(SetKind kind, const SetCard& card);
   Found elements(SetKind kind, const SetCard& card, const std::vector<Id>& ids);
   Found of_parts(SetKind kind, const SetCard& card, const std::vector<Id>& ids);
-  Found in_boxes(SetKind kind, const SetCard& card, const std::vector<Id>& ids, bool with_solids);
+  Found in_boxes(SetKind kind, const SetCard& card, std::string_view word, const std::vector<Id>& ids);
+  /// Segments on the faces of solids that no other of them in the same part has, if their corners are
+  /// `inside`; normals point outwards.
+  Found skin(const SetCard& card, const Members& solids, const std::function<bool(Index)>& inside);
   Found of_sets(SetKind kind, SetKind from, const SetCard& card, const std::vector<Id>& ids);
   Members turned_around(const Members& segments);
-  /// Segments on the exposed faces of solids, outward, for whose solid and nodes `wanted` holds.
-  template <class Wanted>
-  Found faces_of_solids(const SetCard& card, const Wanted& wanted);
-  struct ExposedFace {
-    Index solid;
-    std::array<Index, 4> node;  ///< a triangle has its last node twice
-  };
-  const std::vector<ExposedFace>& exposed_faces();
   Index segment(const std::array<Index, 4>& corners);
   Index segment_of_ids(const SetCard& card, std::string_view field, const std::array<Id, 4>& ids);
 
@@ -118,7 +113,6 @@ class SetResolver {
   std::size_t row_ = 0;                       // of the table being read, for messages
   std::optional<IdIndex> shell_of_id_, solid_of_id_;
   std::map<std::array<Index, 4>, Index> segment_of_corners_;
-  std::optional<std::vector<ExposedFace>> exposed_;
   std::optional<std::set<std::pair<IdSpace, Id>>> unused_;  ///< found with the first member that is missing
   std::set<std::pair<SetKind, Id>> left_out_;               ///< of those the ones that lack a member
 };

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <iterator>
-#include <map>
+#include <numeric>
 
 #include "keyword/source.hpp"
 #include "model/sets/sets.hpp"
@@ -45,9 +45,11 @@ const std::vector<Word>& words_of(SetKind kind) {
                                              {"PART", IdSpace::part, segment_columns},
                                              {"BOX", IdSpace::box, segment_columns},
                                              {"BOX_SHELL", IdSpace::box, segment_columns},
+                                             {"BOX_SOLID", IdSpace::box, segment_columns},
                                              {"SEG", IdSpace::node, 4},
                                              {"SET", IdSpace::segment_set, segment_columns},
-                                             {"SET_SHELL", IdSpace::shell_set, segment_columns}}};
+                                             {"SET_SHELL", IdSpace::shell_set, segment_columns},
+                                             {"SET_SOLID", IdSpace::solid_set, segment_columns}}};
   return words[static_cast<std::size_t>(kind)];
 }
 
@@ -133,7 +135,7 @@ SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::stri
   if (word == "ALL") return everything(kind, card);
   if (word == "PART") return kind == SetKind::part ? elements(kind, card, ids) : of_parts(kind, card, ids);
   if (word == "NODE" || word == "ELEM") return elements(kind, card, ids);
-  if (word == "BOX" || word == "BOX_SHELL") return in_boxes(kind, card, ids, word == "BOX");
+  if (word.substr(0, 3) == "BOX") return in_boxes(kind, card, word, ids);
   if (word == "SET") return of_sets(kind, kind, card, ids);
   if (word == "SET_SHELL") return of_sets(kind, SetKind::shell, card, ids);
   if (word == "SET_SOLID") return of_sets(kind, SetKind::solid, card, ids);
@@ -144,61 +146,18 @@ SetResolver::Found SetResolver::row(SetKind kind, const SetCard& card, std::stri
   return Members{found};
 }
 
-/// Faces that belong to one solid of the model.
-const std::vector<SetResolver::ExposedFace>& SetResolver::exposed_faces() {
-  if (exposed_) return *exposed_;
-  constexpr std::size_t outward[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                         {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-  std::map<std::array<Index, 4>, std::pair<ExposedFace, int>> faces;
-  for (std::size_t s = 0; s < model_.solids.size(); ++s) {
-    const std::array<Index, 8> corners = model_.solids[s].corners();
-    for (const auto& face : outward) {
-      std::array<Index, 4> nodes{};
-      std::size_t count = 0;
-      for (const std::size_t c : face)
-        if (std::find(nodes.begin(), nodes.begin() + count, corners[c]) == nodes.begin() + count)
-          nodes[count++] = corners[c];
-      if (count < 3) continue;
-      if (count == 3) nodes[3] = nodes[2];
-      std::array<Index, 4> key = nodes;
-      std::sort(key.begin(), key.end());
-      const auto end = std::unique(key.begin(), key.end());
-      std::fill(end, key.end(), *(end - 1));
-      ++faces.try_emplace(key, ExposedFace{static_cast<Index>(s), nodes}, 0).first->second.second;
-    }
-  }
-  exposed_.emplace();
-  for (const auto& [key, face] : faces)
-    if (face.second == 1) exposed_->push_back(face.first);
-  return *exposed_;
-}
-
-template <class Wanted>
-SetResolver::Found SetResolver::faces_of_solids(const SetCard& card, const Wanted& wanted) {
-  Members out;
-  if (model_.solids.empty()) return out;
-  for (const ExposedFace& face : exposed_faces()) {
-    const ModelSolid& solid = model_.solids[static_cast<std::size_t>(face.solid)];
-    if (!wanted(solid, face.node)) continue;
-    if (solid.has_nodes_on_edges()) {
-      error(card, "E1", 0, "segments on the faces of solids with nodes on their edges are not supported");
-      return std::nullopt;
-    }
-    out.push_back(segment(face.node));
-  }
-  return out;
-}
-
 SetResolver::Found SetResolver::everything(SetKind kind, const SetCard& card) {
-  const SetKind from = kind == SetKind::segment ? SetKind::shell : kind;
-  Members out(count(from));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<Index>(i);
-  Members all = converted(from, kind, out);
-  if (kind != SetKind::segment) return all;
-  const Found faces = faces_of_solids(card, [](const ModelSolid&, const auto&) { return true; });
+  const auto all = [&](SetKind from) {
+    Members out(count(from));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<Index>(i);
+    return out;
+  };
+  if (kind != SetKind::segment) return all(kind);
+  Members out = converted(SetKind::shell, kind, all(SetKind::shell));
+  const Found faces = skin(card, all(SetKind::solid), [](Index) { return true; });
   if (!faces) return std::nullopt;
-  all.insert(all.end(), faces->begin(), faces->end());
-  return all;
+  out.insert(out.end(), faces->begin(), faces->end());
+  return out;
 }
 
 SetResolver::Found SetResolver::elements(SetKind kind, const SetCard& card, const std::vector<Id>& ids) {
@@ -228,10 +187,9 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   if (kind == SetKind::shell) return shells;
   if (kind == SetKind::solid) return solids;
   if (kind == SetKind::segment) {
-    out = converted(SetKind::shell, kind, shells);
-    const Found faces =
-        faces_of_solids(card, [&](const ModelSolid& solid, const auto&) { return is_wanted(solid.part); });
+    const Found faces = skin(card, solids, [](Index) { return true; });
     if (!faces) return std::nullopt;
+    out = converted(SetKind::shell, kind, shells);
     out.insert(out.end(), faces->begin(), faces->end());
     return out;
   }
@@ -245,9 +203,9 @@ SetResolver::Found SetResolver::of_parts(SetKind kind, const SetCard& card, cons
   return out;
 }
 
-SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, const std::vector<Id>& ids,
-                                         bool with_solids) {
-  Members out, of_solids;
+SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, std::string_view word,
+                                         const std::vector<Id>& ids) {
+  Members out, faces;
   for (const Id id : ids) {
     const auto it = model_.boxes.find(id);
     if (it == model_.boxes.end()) {
@@ -264,19 +222,19 @@ SetResolver::Found SetResolver::in_boxes(SetKind kind, const SetCard& card, cons
       for (std::size_t i = 0; i < model_.nodes.size(); ++i) add(i, std::array{static_cast<Index>(i)});
     else if (kind == SetKind::solid)
       for (std::size_t i = 0; i < model_.solids.size(); ++i) add(i, model_.solids[i].node);
-    else
+    else if (word != "BOX_SOLID")
       for (std::size_t i = 0; i < model_.shells.size(); ++i) add(i, model_.shells[i].node);
-    if (kind != SetKind::segment || !with_solids) continue;
-    const Found faces = faces_of_solids(card, [&](const ModelSolid&, const std::array<Index, 4>& nodes) {
-      return std::all_of(nodes.begin(), nodes.end(), inside);
-    });
-    if (!faces) return std::nullopt;
-    of_solids.insert(of_solids.end(), faces->begin(), faces->end());
+    if (kind != SetKind::segment || word == "BOX_SHELL") continue;
+    Members solids(model_.solids.size());
+    std::iota(solids.begin(), solids.end(), Index(0));
+    const Found of_box = skin(card, solids, inside);
+    if (!of_box) return std::nullopt;
+    faces.insert(faces.end(), of_box->begin(), of_box->end());
   }
   if (kind != SetKind::segment) return out;
-  Members all = converted(SetKind::shell, kind, out);
-  all.insert(all.end(), of_solids.begin(), of_solids.end());
-  return all;
+  out = converted(SetKind::shell, kind, out);
+  out.insert(out.end(), faces.begin(), faces.end());
+  return out;
 }
 
 SetResolver::Found SetResolver::of_sets(SetKind kind, SetKind from, const SetCard& card,
@@ -285,7 +243,10 @@ SetResolver::Found SetResolver::of_sets(SetKind kind, SetKind from, const SetCar
   for (const Id id : ids) {
     const Members* members = other(card, "E1", from, id);
     if (!members) return std::nullopt;
-    const Members own = converted(from, kind, *members);
+    const bool of_solids = from == SetKind::solid && kind == SetKind::segment;
+    const Found faces = of_solids ? skin(card, *members, [](Index) { return true; }) : Members{};
+    if (!faces) return std::nullopt;
+    const Members own = of_solids ? *faces : converted(from, kind, *members);
     out.insert(out.end(), own.begin(), own.end());
   }
   return out;

@@ -169,7 +169,7 @@ TEST(ElementTerms, DampingByStiffnessIsBetaTimesTheElasticRate) {
   FieldSet& set = world.add_set("solids");
   set.resize(1);
   ElementGroup group(set, 0, 8);
-  StiffnessDamping damping(-0.1, group, 1, 1);  // beta 0.1
+  StiffnessDamping damping(-0.1, {}, group, 1, 1);  // beta 0.1
   Elastic law;
   Real rate[6] = {0.1, 0.2, -0.05, 0.03, -0.02, 0.07}, stress[6] = {1, 2, 3, 4, 5, 6};
   const Real dt = 0.01;
@@ -203,7 +203,7 @@ TEST(ElementTerms, DampingByStiffnessIsBetaTimesTheElasticRate) {
   FieldSet& of_shells = world.add_set("shells");
   of_shells.resize(1);
   ElementGroup shells(of_shells, 1, 4);
-  StiffnessDamping plane(-0.1, shells, 1, 0);
+  StiffnessDamping plane(-0.1, {}, shells, 1, 0);
   plane.add_in_plane(law, 0, points, 0);
   const Real E = 9 * 5 * 2 / (3 * 5.0 + 2), nu = E / 4 - 1, modulus = E / (1 - nu * nu);
   const Real expected[6] = {

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "keyword/registry.hpp"
 #include "model/sets/set_cards.hpp"
 #include "small_deck.hpp"
@@ -244,9 +246,9 @@ INSTANTIATE_TEST_SUITE_P(
                  "'3' is not supported\n  hint: supported values: 0, 1, 2, 4, 5"},
         SetFault{"Twice", "*SET_SEGMENT\n1\n1,2\n*SET_SEGMENT_ADD\n1\n1\n",
                  "segment set 1 is defined twice, first as *SET_SEGMENT at deck.k"},
-        SetFault{"FacesOfQuadraticSolids",
-                 "*ELEMENT_SOLID\n1,1\n1,2,4,11,3,5,6,7,8,9\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
-                 "segments on the faces of solids with nodes on their edges are not supported"}),
+        SetFault{"FacesOfSolids",
+                 "*ELEMENT_SOLID\n1,1\n1,2,4,5,6,7,8,9,11,12\n*SET_SEGMENT_GENERAL\n1\nPART,1\n",
+                 "segments on the faces of solids with nodes on edges are not supported"}),
     name_of_set_case);
 
 /// Corners of segments by node id, from the lowest.
@@ -295,6 +297,49 @@ TEST(Sets, OfSolids) {
   EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(2)), (Ids{1, 2}));
   EXPECT_EQ(ids_of(m.model.solids, m.model.solid_sets.at(3)), Ids{1});
   EXPECT_EQ(ids_of(m.model.nodes, m.model.node_sets.at(4)), (Ids{2, 3, 5, 6, 12}));
+}
+
+/// Two cubes of part 7 side by side along x, one of part 8 on top of the first, which share nodes.
+std::string cubes(const std::string& set) {
+  std::string out = "*NODE\n";
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 3; ++i) out += fmt::format("{},{}.0,{}.0,{}.0\n", 101 + i + 3 * j + 6 * k, i, j, k);
+  return out +
+         "*PART\ncubes\n7\n*PART\nmore\n8\n*ELEMENT_SOLID\n1,7,101,102,105,104,107,108,111,110\n2,7,102,103,"
+         "106,105,108,109,112,111\n"
+         "3,8,107,108,111,110,113,114,117,116\n*SET_SEGMENT_GENERAL\n9\n" +
+         set;
+}
+/// Corners of the segments of set 9, and the outward area that they enclose: 0 where they are closed.
+std::pair<std::size_t, Vec> faces_of_cubes(const std::string& set) {
+  const SmallModel m = small_model(cubes(set));
+  EXPECT_EQ(m.messages, "");
+  Vec area = Vec::Zero();
+  const auto& members = m.model.segment_sets.at(9);
+  for (const Index s : members) {
+    const auto& n = m.model.segments[static_cast<std::size_t>(s)].node;
+    const auto x = [&](std::size_t c) { return m.model.nodes[static_cast<std::size_t>(n[c])].x; };
+    area += 0.5 * Vec(x(2) - x(0)).cross(Vec(x(3) - x(1)));
+  }
+  return {members.size(), area};
+}
+
+TEST(Sets, FacesOfSolidsPointOutwards) {
+  const auto expect = [](const std::string& set, std::size_t count, const Vec& area) {
+    const auto [found, sum] = faces_of_cubes(set);
+    EXPECT_EQ(found, count) << set;
+    EXPECT_LT((sum - area).norm(), 1e-12) << set << sum.transpose();
+  };
+  expect("PART,7\n", 10, Vec::Zero());
+  expect("PART,7,8\n", 16, Vec::Zero());  // each part has the face between them
+  expect("BOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,1.9,9.\n", 1, Vec(0, 0, 1));
+  expect("BOX_SOLID,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,-.1,.1\n", 2, Vec(0, 0, -2));
+  expect("BOX_SOLID,5\n*DEFINE_BOX\n5,1.9,9.,-1.,9.,-.1,9.\n", 1, Vec(1, 0, 0));
+  expect("SET_SOLID,5\n*SET_SOLID\n5\n2\n", 6, Vec::Zero());
+  const SmallModel all = small_model(cubes("ALL\n"));
+  EXPECT_EQ(all.model.segment_sets.at(9).size(), 16 + all.model.shells.size());
+  expect("PART,8\nDBOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,1.9,9.\n", 5, Vec(0, 0, -1));
 }
 
 /// One entry of a keyword with a single row below the set id, shifted as *INCLUDE_TRANSFORM does it.
