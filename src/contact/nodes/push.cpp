@@ -165,11 +165,20 @@ void NodeContact::fill(const World& world, const Clock& clock, Slot& slot, Touch
   touch.force = fn * touch.n + touch.friction;
 }
 
+namespace {
+/// Of its diagonal. [L]
+Real width_of(const World& world, const ContactFace& f) {
+  return (world.nodes.x.vec(f.node[2]) - world.nodes.x.vec(f.node[0])).norm();
+}
+}  // namespace
+
 // The spring that a node will have which comes through a face within a step, no force: so that steps are
-// short enough for it by then. The force of the first sample behind the surface pushes through half of the
-// step that led there, which would not be bounded else.
+// short enough for it by then. What touches at the start without a speed is expected at once: nothing else
+// may limit the first step of rigid bodies. The force of the first sample behind the surface pushes through
+// half of the step that led there, which would not be bounded else.
 void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index i,
                          const Slots& slots) const {
+  constexpr Real touching = 1e-6;
   const Seen* first = nullptr;
   Real soonest = soft_dt_ > 0 ? soft_dt_ : unbounded, its_side = 1;
   for (const Seen& seen : b.seen) {
@@ -180,9 +189,10 @@ void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index
     if (gap < 0) continue;
     const Vec v = world.nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N);
     const Real closing = -side * seen.at.n.dot(v);
-    if (!(closing > 0 && gap < closing * soonest)) continue;
+    const bool rests = clock.dt_old == 0 && closing >= 0 && gap <= touching * width_of(world, f);
+    if (!rests && !(closing > 0 && gap < closing * soonest)) continue;
     if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
-    soonest = gap / closing, first = &seen, its_side = side;
+    soonest = rests ? 0 : gap / closing, first = &seen, its_side = side;
   }
   if (!first) return;
   Slot next;
