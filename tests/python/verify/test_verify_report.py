@@ -16,7 +16,7 @@ from courant.verify.figures import Figure, figures
 from courant.verify.model import BoundCheck, CaseResult
 from courant.verify.registry import CHARTS, chart
 from courant.verify.report import html, verdict, write_page, write_reports
-from courant.verify.tables import runs_table
+from courant.verify.tables import check_text, runs_table
 
 
 def test_escaped_texts() -> None:
@@ -56,6 +56,13 @@ def test_escaped_texts() -> None:
 )
 def test_numbers_and_words(written: str, expected: str) -> None:
     assert written.replace("\u00a0", " ") == expected
+
+
+def test_a_missed_bound_differs_from_what_was_measured() -> None:
+    assert check_text(BoundCheck("", "a", "error at most", 0.03, 0.0304, False)) == "a: error at most 3\u00a0%, measured 3.04\u00a0%"
+    assert check_text(BoundCheck("", "a", "error at most", 0.03, 0.0304, True)) == "a: error at most 3\u00a0%, measured 3\u00a0%"
+    assert check_text(BoundCheck("", "a", "order at least", 2, 1.9999, False)) == "a: order at least 2, measured 1.9999"
+    assert check_text(BoundCheck("", "", "stable", 1, 0, False)) == "stable: no"
 
 
 def test_links() -> None:

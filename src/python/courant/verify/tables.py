@@ -38,26 +38,31 @@ class Table:
         return Table(self.columns, [row for row in self.rows if row.bad])
 
 
-def _amount(check: BoundCheck, value: float) -> str:
-    if check.what.startswith("error"):
-        return percent(value)
-    return number(value, 3) if "at most" in check.what or "at least" in check.what else ""
+def _amounts(check: BoundCheck) -> tuple[str, str]:
+    """Bound and what was measured; of a missed bound with so many digits that they differ."""
+    if not check.what.startswith("error") and "at most" not in check.what and "at least" not in check.what:
+        return "", ""
+    as_text = percent if check.what.startswith("error") else number
+    for digits in range(2 if as_text is percent else 3, 8):
+        bound, measured = as_text(check.bound, digits), as_text(check.measured, digits)
+        if check.met or bound != measured:
+            break
+    return bound, measured
 
 
 def check_text(check: BoundCheck) -> str:
     """ "cubic, wave speed: error at most 1 %, measured 3.2 %"."""
     place = ", ".join(filter(None, (check.setting, check.observation)))
     text = (f"{place}: " if place else "") + check.what
-    bound = _amount(check, check.bound)
-    return f"{text} {bound}, measured {_amount(check, check.measured)}" if bound else f"{text}: {'yes' if check.met else 'no'}"
+    bound, measured = _amounts(check)
+    return f"{text} {bound}, measured {measured}" if bound else f"{text}: {'yes' if check.met else 'no'}"
 
 
 def checks_table(case: CaseResult) -> Table:
     """What is bounded, what was measured, and whether that is within the bound."""
     table = Table.of(("setting", "of", "required"), ("bound", "measured"), ("met",))
     for c in case.checks:
-        amounts = _amount(c, c.bound), _amount(c, c.measured)
-        table.add(c.setting or "all", c.observation, c.what, *amounts, "yes" if c.met else "MISSED", bad=not c.met)
+        table.add(c.setting or "all", c.observation, c.what, *_amounts(c), "yes" if c.met else "MISSED", bad=not c.met)
     return table
 
 

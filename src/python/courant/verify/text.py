@@ -33,7 +33,7 @@ def number(value: float, digits: int = 4) -> str:
     return _short_exponent(f"{value:.{digits}g}")
 
 
-def percent(fraction: float) -> str:
+def percent(fraction: float, digits: int = 2) -> str:
     """With a blank that does not break: 0.012 -> "1.2 %"; very small and large ones: "1.2e-7"."""
     size = abs(fraction)
     if not math.isfinite(fraction):
@@ -43,7 +43,7 @@ def percent(fraction: float) -> str:
     if size < 1e-6 or size >= 100:
         return number(fraction, 2)
     value = 100 * fraction
-    return f"{value:.0f}{_BLANK}%" if size >= 1 else f"{value:.{3 if size >= 0.1 else 2}g}{_BLANK}%"
+    return f"{value:.0f}{_BLANK}%" if size >= 1 else f"{value:.{digits + 1 if size >= 0.1 else digits}g}{_BLANK}%"
 
 
 def seconds(value: float) -> str:
