@@ -300,7 +300,7 @@ TEST(Sets, OfSolids) {
 }
 
 /// Two cubes of part 7 side by side along x, one of part 8 on top of the first, which share nodes.
-std::string cubes(const std::string& set) {
+std::string row_of_cubes(const std::string& set) {
   std::string out = "*NODE\n";
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 2; ++j)
@@ -313,7 +313,7 @@ std::string cubes(const std::string& set) {
 }
 /// Corners of the segments of set 9, and the outward area that they enclose: 0 where they are closed.
 std::pair<std::size_t, Vec> faces_of_cubes(const std::string& set) {
-  const SmallModel m = small_model(cubes(set));
+  const SmallModel m = small_model(row_of_cubes(set));
   EXPECT_EQ(m.messages, "");
   Vec area = Vec::Zero();
   const auto& members = m.model.segment_sets.at(9);
@@ -337,7 +337,7 @@ TEST(Sets, FacesOfSolidsPointOutwards) {
   expect("BOX_SOLID,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,-.1,.1\n", 2, Vec(0, 0, -2));
   expect("BOX_SOLID,5\n*DEFINE_BOX\n5,1.9,9.,-1.,9.,-.1,9.\n", 1, Vec(1, 0, 0));
   expect("SET_SOLID,5\n*SET_SOLID\n5\n2\n", 6, Vec::Zero());
-  const SmallModel all = small_model(cubes("ALL\n"));
+  const SmallModel all = small_model(row_of_cubes("ALL\n"));
   EXPECT_EQ(all.model.segment_sets.at(9).size(), 16 + all.model.shells.size());
   expect("PART,8\nDBOX,5\n*DEFINE_BOX\n5,-1.,9.,-1.,9.,1.9,9.\n", 5, Vec(0, 0, -1));
 }

@@ -16,7 +16,7 @@ namespace {
 
 /// End of a cantilever of length 1 under a load along y (N3, s) or z (t), in the middle of its vibration at
 /// rest.
-Vec end_of(const std::string& section, const std::string& more = "") {
+Vec tip_of(const std::string& section, const std::string& more = "") {
   constexpr int n = 8;
   BeamDeck deck;
   deck.part(1, section, "*MAT_ELASTIC\n         1    7850.0   2.1E+08       0.3\n");
@@ -40,23 +40,23 @@ TEST(StandardSections, ResultantsAreThoseOfTheProfile) {
   const std::string given =
       fmt::format("         2\n{:10.4e}{:10.4e}{:10.4e}{:10.4e}{:10.4e}\n", A, ss, tt, J, 2 * 0.003 * 0.06);
   const std::string named = "         2\nSECTION_05      0.04     0.002      0.06     0.003\n";
-  EXPECT_NEAR((end_of(named) - end_of(given)).norm() / end_of(given).tail<2>().norm(), 0, 1e-3);
-  EXPECT_NEAR(end_of(named)[1] / (1 / (3 * 2.1e8 * tt)), 1, 0.02);
-  EXPECT_NEAR(end_of(named)[2] / (1 / (3 * 2.1e8 * ss)), 1, 0.03);
+  EXPECT_NEAR((tip_of(named) - tip_of(given)).norm() / tip_of(given).tail<2>().norm(), 0, 1e-3);
+  EXPECT_NEAR(tip_of(named)[1] / (1 / (3 * 2.1e8 * tt)), 1, 0.02);
+  EXPECT_NEAR(tip_of(named)[2] / (1 / (3 * 2.1e8 * ss)), 1, 0.03);
 }
 
 // The same points as by *INTEGRATION_BEAM with ICST, to the bit; lower case and parameters as in other
 // fields.
 TEST(StandardSections, PointsAreThoseOfIntegrationBeam) {
   const Vec by_rule =
-      end_of("         1       1.0        -3         2\n      0.04      0.04      0.06      0.06\n",
+      tip_of("         1       1.0        -3         2\n      0.04      0.04      0.06      0.06\n",
              "*INTEGRATION_BEAM\n         3         0       0.0         1\n      0.04     0.004      0.06    "
              " 0.003\n");
   EXPECT_EQ(
-      end_of(
+      tip_of(
           "         1       1.0         2         2\nSECTION_01      0.04     0.004      0.06     0.003\n"),
       by_rule);
-  EXPECT_EQ(end_of("         1       1.0         2         2\nsection_01,0.04,0.004,0.06,0.003\n"), by_rule);
+  EXPECT_EQ(tip_of("         1       1.0         2         2\nsection_01,0.04,0.004,0.06,0.003\n"), by_rule);
 }
 
 TEST(StandardSections, TorsionAndMoments) {

@@ -32,7 +32,7 @@ std::string bar(int elform, const std::string& section, Real until, const std::s
   return deck.text(10);
 }
 const std::string damped = "*DAMPING_GLOBAL\n         0     600.0\n",
-                  plain = "*INITIAL_STRESS_SECTION\n         1         7         5         4\n";
+                  by_plane = "*INITIAL_STRESS_SECTION\n         1         7         5         4\n";
 
 /// Of solids of part 1 at their first point.
 Real stress(const Simulation& s, Index e, int component) {
@@ -47,7 +47,7 @@ Real stress(const Simulation& s, Index e, int component) {
 // stays.
 TEST(SectionStress, TightensABarBetweenWalls) {
   for (const int elform : {1, 2}) {
-    auto s = simulation_of(bar(elform, plain, 0.3, damped));
+    auto s = simulation_of(bar(elform, by_plane, 0.3, damped));
     start_ledger(*s);
     for (const Real t : {0.29, 0.6}) {
       while (s->clock().t < t) s->step(test::do_nothing);
@@ -97,7 +97,7 @@ TEST(SectionStress, TakesSetsAndVectors) {
 // Energy: what the section takes from its own solids, the others have. No damping, so that the bar vibrates.
 TEST(SectionStress, ClosesTheBalance) {
   for (const int elform : {1, 2}) {
-    auto s = simulation_of(bar(elform, plain, 0.15));
+    auto s = simulation_of(bar(elform, by_plane, 0.15));
     start_ledger(*s);
     Real most = 0;
     while (s->clock().t < 0.3)
@@ -112,5 +112,5 @@ TEST(SectionStress, ClosesTheBalance) {
 }
 
 TEST(SectionStress, HasTheSameBitsOnAnyNumberOfThreadsAndAfterARestart) {
-  for (const int elform : {1, 2}) test::expect_same_bits(bar(elform, plain, 0.3), 40, 17);
+  for (const int elform : {1, 2}) test::expect_same_bits(bar(elform, by_plane, 0.3), 40, 17);
 }
