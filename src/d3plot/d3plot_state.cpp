@@ -4,6 +4,7 @@
 
 #include "d3plot/d3plot_model.hpp"
 #include "rigid/bodies/rigid.hpp"
+#include "state/force_of_now.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
@@ -190,11 +191,12 @@ void D3plotModel::put_nodes(const World& world, const Clock& clock, const std::v
       out.vec(node_of_[k] >= 0 ? of_node(node_of_[k]) : of[k] >= 0 ? of_particle(of[k]) : of_none(k));
   };
   const auto none = [](std::size_t) { return Vec(Vec::Zero()); };
+  const Field<Real>& force = force_of_now(p);
   each([&](Index n) { return nodes.x.vec(n); }, [&](Index i) { return p.place(i, clock.t); },
        [&](std::size_t k) { return mesh_.places[k]; });
   each([&](Index n) { return nodes.v.vec(n); }, [&](Index i) { return p.v.vec(i); }, none);
   each([&](Index n) { return a[static_cast<std::size_t>(n)]; },
-       [&](Index i) { return i < p.active ? Vec(p.f.vec(i) / p.m[i]) : Vec(Vec::Zero()); }, none);
+       [&](Index i) { return i < p.active ? Vec(force.vec(i) / p.m[i]) : Vec(Vec::Zero()); }, none);
 }
 
 // Of eight points that are asked for, elements with fewer repeat their last one.

@@ -69,6 +69,13 @@ bool D3plotFamily::has_states(int number) const {
   return true;
 }
 
+int D3plotFamily::next_whole(int number) const {
+  const int index = number / states_in_file_ + 1;
+  std::error_code none;
+  const bool lost = number % states_in_file_ != 0 && !std::filesystem::exists(file(index), none);
+  return lost ? index * states_in_file_ : number;
+}
+
 void D3plotFamily::begin(std::string_view model) {
   remove_from(1);
   write_head(model);

@@ -22,6 +22,9 @@ class D3plotFamily {
   /// Whether the model's file is there, and the files of the states before `number`.
   bool has_head() const;
   bool has_states(int number) const;
+  /// The number of the first state of the next file where that of `number` has lost states before it, else
+  /// `number`.
+  int next_whole(int number) const;
   /// The model's file alone. Throws OutputError.
   void write_head(std::string_view model);
   /// A state, its time first, by its number from 0 on. Throws OutputError.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <Eigen/QR>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -51,6 +52,9 @@ class RangeReader {
           fmt::format("{:g} is too much for a range of frequencies: it is for small damping", card.cdamp),
           "0.01 to 0.05 is usual; *DAMPING_PART_MASS and *DAMPING_PART_STIFFNESS damp more");
     if (card.psid == 0) {
+      if (std::exchange(has_rest_, true))
+        return error(card, "PSID", "another card damps all parts that no part set names",
+                     "name the parts of one of them by PSID");
       for (std::size_t part = 0; part < out_.size(); ++part)
         if (!out_[part].any()) take(card, part, range);
       return;
@@ -96,6 +100,7 @@ class RangeReader {
   bool of_stress_;
   const std::function<std::string(std::size_t)>& why_not_;
   Diagnostics& diagnostics_;
+  bool has_rest_ = false;  ///< a card names all other parts
   std::vector<FrequencyRange> out_;
 };
 

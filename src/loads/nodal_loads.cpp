@@ -112,6 +112,13 @@ class NodalLoadReader {
               "the normal of M1, M2, M3 is the direction: define it with *NODE");
         return false;
       }
+      if (at < 0 && std::any_of(model_.sph.begin(), model_.sph.end(),
+                                [&](const ModelSph& one) { return one.node == of_model->second; })) {
+        error(card, field,
+              fmt::format("node {} is a particle, whose motion the direction would not follow", id),
+              "name nodes of elements or bodies, or nodes that rest");
+        return false;
+      }
       // nodes of no element or body rest: -1 - index into Model::nodes
       x[k] = at < 0 ? model_.nodes[static_cast<std::size_t>(of_model->second)].x : world_.nodes.x.vec(at);
       (*load.follows)[k++] = at < 0 ? -1 - of_model->second : at;

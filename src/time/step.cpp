@@ -107,8 +107,8 @@ TimeLimit::Limit Stepper::choose_dt(Clock& clock, std::string& who) {
   const bool inner = subcycle_ && !subcycle_->outer();
   for (TimeLimit* limit : limits_) {
     const bool is_slow = subcycle_ && subcycle_->is_slow(*limit);
-    TimeLimit::Limit one =
-        is_slow && inner ? TimeLimit::Limit{subcycle_->limit(), "particles"} : limit->limit(world_, clock);
+    TimeLimit::Limit one = is_slow && inner ? TimeLimit::Limit{subcycle_->limit() / rules_.share, "particles"}
+                                            : limit->limit(world_, clock);
     if (is_slow) slow = std::min(slow, rules_.share * one.dt);
     Real& of_its_kind = limit->rings() ? ringing : others;
     of_its_kind = std::min(of_its_kind, rules_.share * one.dt);

@@ -8,6 +8,7 @@
 #include "elements/shape_watch.hpp"
 #include "extension/additions.hpp"
 #include "gauges/gauge.hpp"
+#include "state/force_of_now.hpp"
 #include "state/shared_fields.hpp"
 #include "state/tied_mass.hpp"
 
@@ -90,6 +91,7 @@ void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, co
   std::vector<Id> ids;
   for (const HistoryNode& one : wanted) ids.push_back(one.id);
   const Particles& p = world.particles;
+  const Field<Real>& force = force_of_now(p);
   const auto particle = places_of(ids, p.id, p.size()),
              shell_node = places_of(ids, world.nodes.id, world.nodes.size());
   std::unordered_map<Index, const RigidBodyMotion*> body_of;
@@ -101,7 +103,7 @@ void sample_nodes(const std::vector<HistoryNode>& wanted, const World& world, co
     if (const Index i = particle.at(one.id); i >= 0) {
       node.x = p.place(i, clock.t);
       node.v = p.v.vec(i);
-      if (i < p.active) node.a = (p.f.vec(i) + force_on(s.boundary_forces, one.id)) / p.m[i];
+      if (i < p.active) node.a = (force.vec(i) + force_on(s.boundary_forces, one.id)) / p.m[i];
     } else if (const Index n = shell_node.at(one.id); n >= 0) {
       node.x = world.nodes.x.vec(n);
       node.v = world.nodes.v.vec(n);

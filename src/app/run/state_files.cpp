@@ -36,7 +36,7 @@ void StateFiles::write(State state) {
   ++states_;
   if (state.vtk) vtk_.write(std::move(*state.vtk));
   if (!d3plot_) return;
-  if (first_ < 0)
+  if (first_ == none)
     d3plot_->begin(state.d3plot_head), first_ = state.number;
   else if (!state.d3plot_head.empty() && !d3plot_->has_head())  // the first one behind a restart
     d3plot_->write_head(state.d3plot_head);
@@ -51,20 +51,21 @@ void StateFiles::keep(Archive& archive) {
   archive("first", first_);
   archive("states", states_);
   archive("state_bytes", state_bytes);
-  if (archive.loading() && d3plot_ && first_ >= 0 && state_bytes != now)
+  if (archive.loading() && d3plot_ && first_ != none && state_bytes != now)
     throw OutputError(dir_ / "d3plot",
                       fmt::format("its states have {} bytes, those of this deck {}", state_bytes, now));
 }
 
 std::string StateFiles::cut(int number) {
   if (with_vtk()) vtk_.cut(number);
-  if (!d3plot_ || first_ < 0) return "";
-  if (!d3plot_->has_states(number - first_)) {
-    first_ = -1;
-    return "files of d3plot are missing: its states begin again with the next one";
-  }
-  d3plot_->cut(number - first_);
-  return d3plot_->has_head() ? "" : "the file d3plot is missing: it is written again";
+  if (!d3plot_ || first_ == none) return "";
+  const bool whole = d3plot_->has_states(number - first_);
+  const int next = d3plot_->next_whole(number - first_);
+  first_ = number - next;
+  d3plot_->cut(next);
+  return !whole                ? "files of d3plot are missing: the states in them are lost"
+         : d3plot_->has_head() ? ""
+                               : "the file d3plot is missing: it is written again";
 }
 
 }  // namespace courant

@@ -1,6 +1,7 @@
 #pragma once
 // The files of states requested by a deck: VTK's, d3plot, or both.
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -40,7 +41,8 @@ class StateFiles {
   FieldWriter vtk_;
   std::optional<D3plotFamily> d3plot_;
   bool has_head_ = false;
-  int first_ = -1;  ///< number of the first state of the family; -1: it has none
+  static constexpr int none = std::numeric_limits<int>::min();
+  int first_ = none;  ///< number of the first state of the family, below 0 where a gap moved it; or `none`
   int states_ = 0;
 };
 

@@ -6,6 +6,7 @@
 
 #include "output/fields/field_data.hpp"
 #include "output/fields/vtk_arrays.hpp"
+#include "state/force_of_now.hpp"
 
 namespace courant {
 namespace {
@@ -63,7 +64,7 @@ VtkArray array_of(const Particles& p, const std::string& name, const std::vector
                                   [&](std::size_t i, Real* to) {
                                     const Index k = which[i];
                                     for (int c = 0; c < 3; ++c)
-                                      to[c] = k < p.active ? p.f.data(c)[k] / p.m[k] : 0;
+                                      to[c] = k < p.active ? force_of_now(p).data(c)[k] / p.m[k] : 0;
                                   });
   return copy_of(*p.fields.find(name), which, options.float64, options.eps);
 }

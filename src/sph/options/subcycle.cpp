@@ -10,6 +10,8 @@
 #include "sph/options/subcycle_cards.hpp"
 #include "sph/skin.hpp"
 #include "sph/sph.hpp"
+#include "state/force_of_now.hpp"
+#include "state/shared_fields.hpp"
 #include "state/subcycle.hpp"
 
 namespace courant {
@@ -26,7 +28,8 @@ bool has_structure(const Deck& deck, const World& world) {
 
 /// What needs each step: it takes velocities or forces of the step, or moves particles otherwise than by
 /// their velocity. Empty: nothing does.
-std::string what_needs_each_step(const Deck& deck, const SphSettings& s) {
+std::string what_needs_each_step(const Deck& deck, const Model& model, const World& world,
+                                 const SphSettings& s) {
   const std::pair<bool, const char*> all[] = {
       {s.geometry_eps > 0, "*COURANT_PAIR_GEOMETRY"},
       {s.renormalised, "FORM of *CONTROL_SPH"},
@@ -43,7 +46,16 @@ std::string what_needs_each_step(const Deck& deck, const SphSettings& s) {
   };
   for (const auto& [on, name] : all)
     if (on) return name;
-  for (const char* begin : {"BOUNDARY_SPH_", "DEFINE_SPH_", "COURANT_INFLOW", "COURANT_LEVEL_OUTLET"})
+  // Supports and rigid walls report what stops a particle in a step, which would be that of a kick.
+  for (const ModelSph& one : model.sph)
+    if (const auto& fixed = model.nodes[static_cast<std::size_t>(one.node)].fixed;
+        fixed[0] || fixed[1] || fixed[2])
+      return "SPC on particles";
+  if (const auto* driven = shared_fields::prescribed_motion.find(world.particles.fields))
+    for (Index i = 0; i < world.particles.size(); ++i)
+      if ((*driven)[i] != 0) return "a prescribed motion of particles";
+  for (const char* begin :
+       {"RIGIDWALL_", "BOUNDARY_SPH_", "DEFINE_SPH_", "COURANT_INFLOW", "COURANT_LEVEL_OUTLET"})
     for (const auto& [name, use] : deck.keywords)
       if (name.starts_with(begin)) return "*" + name;
   return {};
@@ -121,10 +133,12 @@ class ListsOfIntervals : public Rate, public Restartable {
 
 /// The kick by the slow forces, as a force of this step; and what it means for the ledger that their kicks
 /// are longer than those of the other forces.
-class PairKick : public Force, public EnergyTerm {
+class PairKick : public Force, public Impact, public EnergyTerm {
  public:
   PairKick(World& world, const Subcycle& subcycle)
-      : subcycle_(subcycle), force_(subcycle_fields::pair_force.add(world.particles.fields)) {}
+      : subcycle_(subcycle),
+        force_(subcycle_fields::pair_force.add(world.particles.fields)),
+        of_now_(shared_fields::force_of_now.add(world.particles.fields)) {}
   std::string name() const override { return "pair forces"; }
   void declare(const World& world, Accesses& a) const override { a.reads(force_).updates(world.particles.f); }
   void block(World& world, const Clock&, Index begin, Index end) override {
@@ -134,6 +148,11 @@ class PairKick : public Force, public EnergyTerm {
       Real* f = world.particles.f.data(k);
       for (Index i = begin; i < end; ++i) f[i] += weight * from[i];
     }
+  }
+  void strike(World& world, const Clock&) override {
+    const Real left = subcycle_.outer() ? 1 - subcycle_.weight() : 1;
+    for_each(world.particles.active,
+             [&](Index i) { of_now_.set(i, world.particles.f.vec(i) + left * force_.vec(i)); });
   }
   void record(World&, const Clock&, EnergyLedger&) override {}
   /// Points count all of f over half a step; the slow part holds since the middle of the last kick.
@@ -158,11 +177,11 @@ class PairKick : public Force, public EnergyTerm {
 
  private:
   const Subcycle& subcycle_;
-  Field<Real>& force_;
+  Field<Real>&force_, &of_now_;
 };
 
-void choose(const Deck& deck, World& world, const SphSettings& settings, Diagnostics& diagnostics,
-            SubcycleChoice& out) {
+void choose(const Deck& deck, const Model& model, World& world, const SphSettings& settings,
+            Diagnostics& diagnostics, SubcycleChoice& out) {
   if (world.particles.size() == 0) return;
   const auto* c = deck.last<CourantSubcycle>();
   const auto note = [&](const std::string& why) {
@@ -176,7 +195,7 @@ void choose(const Deck& deck, World& world, const SphSettings& settings, Diagnos
   const int most = c->nmax > 0 ? c->nmax : Subcycle::usual_most;
   if (most == 1) {
     out.why_not = "NMAX of *COURANT_SUBCYCLE is 1";
-  } else if (const std::string what = what_needs_each_step(deck, settings); !what.empty()) {
+  } else if (const std::string what = what_needs_each_step(deck, model, world, settings); !what.empty()) {
     out.why_not = what + " needs the forces of each step";
     note(out.why_not);
   } else {

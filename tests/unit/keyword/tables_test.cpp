@@ -13,6 +13,8 @@ namespace {
 
 /// Fields of type Id that number nothing, each with the reason.
 const std::map<std::string, const char*> plain_numbers = {
+    {"INITIAL_STRESS_SECTION ISSID", "nothing refers to it"},
+    {"INITIAL_STRESS_SECTION CSID", "sections have no ids of their own kind"},
     {"INCLUDE_TRANSFORM IDNOFF", "an offset"},
     {"INCLUDE_TRANSFORM IDEOFF", "an offset"},
     {"INCLUDE_TRANSFORM IDPOFF", "an offset"},
