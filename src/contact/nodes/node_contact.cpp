@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -248,7 +249,7 @@ void NodeContact::start(World& world, const Clock& clock) {
   soft_dt_ = std::max(soft_dt_, clock.dt_old);
   if (law_.sleeps(clock.t)) {
     if (!asleep_)  // at its death what it stores is lost
-      for (const Touch& touch : touches_) let_go_ += touch.stored;
+      let_go_ += std::exchange(stored_, 0);
     if (!asleep_)
       for (int k = 0; k < most_touches; ++k) std::fill_n(in_touch_->data(k), set_->size(), 0);
     if (!asleep_) depth_->fill(0);
@@ -291,7 +292,9 @@ void NodeContact::finish(World& world, const Clock& clock) {
       ++world.counters["leaked_nodes"];
     }
   }
+  stored_ = 0;
   for (const Touch& touch : touches_) {
+    stored_ += touch.stored;
     // beside an edge that of the energy left, as the node is no longer where the face is
     if (touch.stored > 0) deepest = std::max(deepest, std::sqrt(2 * touch.stored / touch.k));
     world.segments.contact_force->add(face(touch.face).segment, -touch.force);
@@ -345,6 +348,7 @@ void NodeContact::keep(Archive& archive) {
   archive("acted", acted_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
+  archive("stored", stored_);
   if (archive.loading()) listed_once_ = false;
 }
 

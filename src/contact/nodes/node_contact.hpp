@@ -337,6 +337,7 @@ class NodeContact : public Force,
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails
   std::vector<char> may_touch_;    ///< by tracked node: some face of its own is there
   std::int64_t eroded_count_ = 0;  ///< deleted elements when lists were made
+  Real stored_ = 0;                ///< in all touches of the last step [ML2/T2]
   Real let_go_ = 0;  ///< energy of touches that ended with the contact's life, not yet in the ledger [ML2/T2]
 };
 
