@@ -134,6 +134,22 @@ def test_polygons_with_cuts_and_many_corners_are_covered_once() -> None:
     assert triangulated(square, [[0, 1, 2, 3], [2, 1, 0]])[0]["quad"][0].tolist() == [[0, 1, 2, 3]]
 
 
+def test_the_group_of_a_structure_is_the_surface_that_is_filled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    both = prism(tmp_path / "a.obj", ELL, "o ell\n")
+    far = [line.split() for line in prism(tmp_path / "b.obj", [(x + 5, y) for x, y in TEE], "o tee\n").read_text().splitlines()]
+    both.write_text(both.read_text() + "".join(" ".join([word, *(str(int(k) + 12) for k in rest)] if word == "f" else [word, *rest]) + "\n" for word, *rest in far))
+    filled: list[float] = []
+
+    def tetrahedra(shape: Shape, size: float) -> None:
+        filled.append(shape.volume())
+        raise ShapeFault("enough")
+
+    monkeypatch.setattr("courant.scene.structure_reader.tetrahedra", tetrahedra)
+    for keys in ({"group": "ell"}, {"group": "tee"}, {}):
+        assert "enough" in said(space().structure(both, material="rubber", **keys))
+    assert np.abs(np.array(filled) - [3, 5, 8]).max() < 1e-12
+
+
 def test_a_face_that_crosses_itself_is_refused_at_its_line(tmp_path: Path) -> None:
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1.2 0\nf 1 2 3\nf 1 2 3 4\n")
     with pytest.raises(ShapeFault, match="line 6: the sides of a face cross each other"):

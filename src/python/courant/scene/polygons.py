@@ -83,7 +83,7 @@ def _ears(x: np.ndarray) -> np.ndarray | None:
     while len(found) < n - 3:
         k = int(np.argmax(shapes))
         if not shapes[k] > 0:
-            shapes = np.array([shape_of(k) for k in range(n)])  # a corner that was in the way may be gone
+            shapes = np.array([shape_of(k) for k in range(n)])  # a corner within another triangle may be gone
             k = int(np.argmax(shapes))
             if not shapes[k] > 0:
                 return None

@@ -174,8 +174,9 @@ def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Bas
     except MissingModule as fault:
         return reader._refuse(entry, str(fault), "a surface with a 'thickness' is of shells" if "gmsh" in str(fault) else "")  # type: ignore[no-any-return]
     except ShapeFault as fault:
-        of_group = named is not None and fault.message.startswith("group: ")
-        return reader._refuse(named if of_group else entry, fault.message if of_group else f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
+        if named is not None and fault.message.startswith("group: "):
+            return reader._refuse(named, fault.message, fault.hint)  # type: ignore[no-any-return]
+        return reader._refuse(entry, f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
     except (Exception, SystemExit) as fault:  # libraries raise exceptions of many kinds
         return reader._refuse(entry, f"the mesh cannot be read: {' '.join(str(fault).split())[:200]}", hint)  # type: ignore[no-any-return]
     try:
