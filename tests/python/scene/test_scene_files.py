@@ -132,6 +132,8 @@ def test_polygons_with_cuts_and_many_corners_are_covered_once() -> None:
         assert crossed is None and len(faces) == len(x) - 2 and (areas * np.sign(whole) > 0).all() and abs(areas.sum() - whole) < 1e-12
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
     assert triangulated(square, [[0, 1, 2, 3], [2, 1, 0]])[0]["quad"][0].tolist() == [[0, 1, 2, 3]]
+    dart = np.column_stack([ARROW, np.zeros(4)])
+    assert not any(len(triangulated(dart, [[k, (k + 1) % 4, (k + 2) % 4, (k + 3) % 4]])[0]["quad"][0]) for k in range(4))  # no shell of four corners
 
 
 def test_the_group_of_a_structure_is_the_surface_that_is_filled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
