@@ -54,9 +54,9 @@ class Inlet:
 
     def length(self, end: float) -> float:
         """Of the water that enters before `end` [L]; infinite where the formula has functions that the program alone knows."""
-        times = np.linspace(self.start, self.end or end, _TIMES)
         if not self.formula:
-            return self.speed * float(np.ptp(times))
+            return self.speed * ((self.end or end) - self.start)
+        times = np.linspace(self.start, self.end or end, _TIMES)
         formula = Formula(self.formula.lower(), ("time",), {"pi": math.pi})
         speed = formula.over({"time": times}, len(times)) if formula.ok else np.full(len(times), np.nan)
         if not np.isfinite(speed).all():
