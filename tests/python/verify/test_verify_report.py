@@ -72,7 +72,7 @@ def test_links() -> None:
 
 
 def test_links_of_the_page(tmp_path: Path) -> None:
-    made = suite(wave())
+    made = suite(one_run())
     made.suite.about = "See *all* of [a_b](c_d.md#e-f) & [g]."
     write_page(made, tmp_path / "page.md", tmp_path / "pictures")
     assert "\nSee \\*all\\* of [a\\_b](c_d.md#e-f) &amp; \\[g\\].\n\n**" in (tmp_path / "page.md").read_text()
@@ -94,15 +94,24 @@ def test_one_line_says_whether_the_suite_holds() -> None:
     assert "MISSED" not in html(suite(c))
 
 
-def test_text_of_the_suite_is_text() -> None:
-    page = html(whole_suite(), Comparison("<earlier>", [Change("<change>", True)]))
+@pytest.fixture(scope="module")
+def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the reports of the whole suite, whose charts take seconds."""
+    folder = tmp_path_factory.mktemp("whole")
+    write_reports(whole_suite(), folder / "deep" / "down", Comparison("<earlier>", [Change("<change>", True)]))
+    write_page(whole_suite(), folder / "page.md", folder / "pictures here")
+    return folder
+
+
+def test_text_of_the_suite_is_text(reports: Path) -> None:
+    page = (reports / "deep" / "down" / "report.html").read_text()
     assert "<script" not in page and "&lt;script&gt;" in page
     assert not [raw for raw in ("<in>", "<suite>", "<water>", "<earlier>", "<change>") if raw in page]
     assert "_Markup" not in page and "{{" not in page
 
 
-def test_nothing_is_loaded() -> None:
-    page = html(whole_suite())
+def test_nothing_is_loaded(reports: Path) -> None:
+    page = (reports / "deep" / "down" / "report.html").read_text()
     assert page.count("http") == 2 * page.count('xmlns="http://www.w3.org/2000/svg"'), "names of SVG's words"
     assert page.count("src=") == 1, "the picture"
     assert 'src="data:image/png;base64,iVBORw0KGgo' in page
@@ -156,22 +165,19 @@ def test_stopped_runs_stand_out() -> None:
     assert "exit code 2, error: runaway energy" in table.rows[10].cells[-1]
 
 
-def test_files_are_put_where_they_belong(tmp_path: Path) -> None:
-    write_reports(whole_suite(), tmp_path / "deep" / "down")
-    assert (tmp_path / "deep" / "down" / "report.html").read_text().endswith("</html>\n")
-    write_page(whole_suite(), tmp_path / "page.md", tmp_path / "pictures here")
-    page = (tmp_path / "page.md").read_text()
+def test_files_are_put_where_they_belong(reports: Path) -> None:
+    assert (reports / "deep" / "down" / "report.html").read_text().endswith("</html>\n")
+    page = (reports / "page.md").read_text()
     assert "(<pictures here/wave-period-error.svg>)" in page
-    assert (tmp_path / "pictures here" / "wave-picture.png").read_bytes() == PICTURE
-    svg = (tmp_path / "pictures here" / "wave-period-error.svg").read_text()
+    assert (reports / "pictures here" / "wave-picture.png").read_bytes() == PICTURE
+    svg = (reports / "pictures here" / "wave-period-error.svg").read_text()
     assert svg.startswith("<svg xmlns=") and "prefers-color-scheme" in svg
     shown = re.findall(r"\]\(<(.*?)>\)", page)
-    assert len(shown) == 11 and all((tmp_path / name).is_file() for name in shown)
+    assert len(shown) == 11 and all((reports / name).is_file() for name in shown)
 
 
-def test_tables_of_the_page_are_tables_of_markdown(tmp_path: Path) -> None:
-    write_page(whole_suite(), tmp_path / "page.md", tmp_path / "page")
-    for block in (tmp_path / "page.md").read_text().split("\n\n"):
+def test_tables_of_the_page_are_tables_of_markdown(reports: Path) -> None:
+    for block in (reports / "page.md").read_text().split("\n\n"):
         lines = [line for line in block.split("\n") if line.startswith("|")]
         if lines:
             assert re.fullmatch(r"\|((---:|---)\|)+", lines[1])

@@ -229,9 +229,11 @@ class BasinReader(ShapeReader):
         rows = read_series(self, self.folder, node, "motion")
         if rows is None:
             return None
-        if abs(rows[0, 1]) > 1e-6 * np.abs(rows[:, 1]).max() or rows[0, 0] > 0:
-            self.error(node, f"motion: the curve begins with {rows[0, 1]:g} at {rows[0, 0]:g}: a displacement counts from the position at the start and begins "
-                       "with 0 at 0", "subtract the first value")
+        begin = max(rows[0, 0], 0.0)
+        at_begin = np.interp(begin, *rows.T)
+        if abs(at_begin) > 1e-6 * np.abs(rows[:, 1]).max() or begin > 0:
+            self.error(node, f"motion: the curve begins with {at_begin:g} at {begin:g}: a displacement counts from the position at the start and begins "
+                       "with 0 at 0", "subtract its first value from all")
             return None
         return np.vstack([rows, [[2 * end, rows[-1, 1]]]]) if rows[-1, 0] < end else rows
 
@@ -266,8 +268,9 @@ class BasinReader(ShapeReader):
         for inlet in basin.inlets:
             behind = sum(int(inlet.waits(positions(one, self.variables), basin.spacing, basin.end).sum()) for one in basin.water.lattices)
             if behind:
-                self.diagnostics.error(inlet.where, f"an inlet inside of the water: {behind} particles are behind it, where those wait that enter",
-                                       "an inlet is a jet into air; of a channel, a block of moving water outside of the box is the inflow")
+                report = self.diagnostics.error if np.isfinite(inlet.length(basin.end)) else self.diagnostics.warning
+                report(inlet.where, f"an inlet inside of the water: {behind} particles are behind it, where those wait that enter",
+                       "an inlet is a jet into air; of a channel, a block of moving water outside of the box is the inflow")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..words import did_you_mean
+from .polygons import triangulated
 from .shapes import ShapeFault
 
 
@@ -60,10 +61,11 @@ def _dimension(kind: str) -> int:
 
 
 def read_obj(path: Path) -> Cells:
-    """Faces of an OBJ, polygons as triangles, with its groups, objects and materials. Raises ValueError, OSError."""
+    """Faces of an OBJ with its groups, objects and materials; polygons that are no convex quadrangles as triangles. Raises ValueError, OSError."""
     points: list[list[float]] = []
     faces: list[list[int]] = []
-    groups: dict[str, list[int]] = {}
+    lines: list[int] = []  # of the faces
+    groups: dict[str, list[int]] = {}  # faces by name
     named: dict[str, list[str]] = {}  # by keyword
     for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ").splitlines(), 1):
         words = line.split("#")[0].split()
@@ -84,11 +86,16 @@ def read_obj(path: Path) -> Cells:
             corners = [at - 1 if at > 0 else len(points) + at for at in corners]
             if len(corners) < 3 or not all(0 <= at < len(points) for at in corners):
                 raise ValueError(f"line {number}: a face has three vertices or more, of those above it, got '{line.strip()[:40]}'")
-            for k in range(1, len(corners) - 1):
-                for name in dict.fromkeys(name for names in named.values() for name in names):
-                    groups.setdefault(name, []).append(len(faces))
-                faces.append([corners[0], corners[k], corners[k + 1]])
+            for name in dict.fromkeys(name for names in named.values() for name in names):
+                groups.setdefault(name, []).append(len(faces))
+            faces.append(corners)
+            lines.append(number)
     if any(len(point) != 3 for point in points):
         raise ValueError("a vertex has three numbers")
-    data = np.array(faces, dtype=int).reshape(-1, 3)
-    return Cells(np.array(points).reshape(-1, 3), [Block("triangle", data)], {name: [np.array(rows, dtype=int)] for name, rows in groups.items()})
+    x = np.array(points).reshape(-1, 3)
+    made, bad = triangulated(x, faces)
+    if bad is not None:
+        raise ValueError(f"line {lines[bad]}: the sides of a face cross each other")
+    blocks = [(kind, *one) for kind, one in made.items() if len(one[0])]
+    return Cells(x, [Block(kind, data) for kind, data, _ in blocks],
+                 {name: [np.flatnonzero(np.isin(owner, rows)) for _, _, owner in blocks] for name, rows in groups.items()})

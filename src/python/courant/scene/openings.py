@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..diagnostics import Location
+from ..expressions import Formula
 from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_scalar
 from .numbers import number_text
@@ -25,6 +26,7 @@ _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
 _BOX_HEAD = "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n"
 _GAP = 2.5  # spacings
 _BEYOND = 6  # spacings: more than the reach of the kernel
+_TIMES = 2001  # at which a formula of the speed is evaluated
 FIRST_CURVE, FIRST_SYSTEM, BOX, FIRST_BAND = 981, 981, 981, 982
 
 
@@ -47,9 +49,19 @@ class Inlet:
             within = np.linalg.norm(beside, axis=1) < self.size[0] + spacing / 4
         else:
             within = np.all([np.abs(beside @ axis) < size / 2 + spacing / 4 for axis, size in zip(across(self.direction), self.size)], axis=0)
-        length = self.speed * ((self.end or end) - self.start) if self.speed else np.inf
-        behind: np.ndarray = within & (along < 0) & (along > -length)
+        behind: np.ndarray = within & (along < 0) & (along > -self.length(end))
         return behind
+
+    def length(self, end: float) -> float:
+        """Of the water that enters before `end` [L]; infinite where the formula has functions that the program alone knows."""
+        if not self.formula:
+            return self.speed * ((self.end or end) - self.start)
+        times = np.linspace(self.start, self.end or end, _TIMES)
+        formula = Formula(self.formula.lower(), ("time",), {"pi": math.pi})
+        speed = formula.over({"time": times}, len(times)) if formula.ok else np.full(len(times), np.nan)
+        if not np.isfinite(speed).all():
+            return math.inf
+        return float(np.append(0.0, np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(times))).max())
 
 
 @dataclass

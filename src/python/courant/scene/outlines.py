@@ -11,12 +11,13 @@ from .shapes import Shape, polyline
 
 OUTLINES = (".csv", ".txt", ".dxf", ".svg")
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_NAME = re.compile(r"\D*[^\W\d_]")  # a letter and no digit in front of it
 _ARC = 32  # lines along a curve of an SVG or DXF
 
 
 def read_outline(path: Path) -> Shape:
     """The lines of a file; of several those that are not closed are joined at their ends. Raises ValueError, OSError."""
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = path.read_text(encoding="utf-8-sig", errors="replace")
     lines = {".dxf": _dxf, ".svg": _svg}.get(path.suffix.lower(), _csv)(text)
     lines = [(xy, closed) for xy, closed in lines if len(xy) > 1]
     if not lines:
@@ -59,22 +60,28 @@ def _joined(lines: list[tuple[np.ndarray, bool]]) -> list[tuple[np.ndarray, bool
     return out
 
 
+def _is_heading(words: list[str]) -> bool:
+    """Names of columns; but a first number with a wrong letter, as in 'O.0 0.5', is a mistake."""
+    return bool(_NAME.match(words[0])) and not (len(words) > 1 and all(_NUMBER.fullmatch(word.replace("O", "0").replace(",", ".")) for word in words[1:]))
+
+
 def two_columns(text: str) -> np.ndarray:
     """Two numbers a line, with a comma, a semicolon or blanks between, and with a semicolon also decimal commas; a third is 0, as the z of an outline. A
-    heading and comments are left out. Shape (n, 2). Raises ValueError."""
+    heading before the first row and what follows '#' are left out. Shape (n, 2). Raises ValueError."""
     rows: list[list[float]] = []
-    for number, line in enumerate(text.splitlines(), 1):
-        words = re.split(r"[;\s]+" if ";" in line else r"[,\s]+", line.strip().strip(",;"))
-        if not words[0] or line.lstrip().startswith(("#", "$")):
+    for number, whole in enumerate(text.splitlines(), 1):
+        line = whole.split("#")[0].strip().strip(",;")
+        words = re.split(r"[;\s]+" if ";" in line else r"[,\s]+", line)
+        if not line or line.startswith("$"):
             continue
         try:
             values = [float(word.replace(",", ".") if ";" in line else word) for word in words]
         except ValueError:
-            if not rows:
+            if not rows and _is_heading(words):
                 continue
             values = []
         if not (len(values) == 2 or (len(values) == 3 and values[2] == 0)):
-            raise ValueError(f"line {number}: two numbers are expected, got '{line.strip()[:40]}'")
+            raise ValueError(f"line {number}: two numbers are expected, got '{whole.strip()[:40]}'")
         rows.append(values[:2])
     return np.array(rows).reshape(-1, 2)
 

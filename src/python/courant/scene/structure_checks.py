@@ -1,6 +1,8 @@
 """What deformable parts of a scene must not be: in a wall, in a body or in each other; and bodies that overlap."""
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ..diagnostics import Diagnostics
@@ -11,6 +13,7 @@ from .shapes import Shape
 from .structures import Structure
 
 _DEPTH = 0.01  # of the spacing of particles: what is less deep touches
+_FACES = 20_000  # whose points are examined at once
 
 
 def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
@@ -47,8 +50,9 @@ def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> No
             name = titles[wall.part]
             if (linked[k] and {name, str(wall.part)} & joined) or {"x", "y", "z"} <= one.hold:
                 continue
-            found = _inside(one.shape, _points_on(wall.shape), _DEPTH * basin.spacing)[:1]
-            at = found[0] if len(found) else _common_point(one.shape, wall.shape, _DEPTH * basin.spacing) if wall.closed or wall.shape.ground else None
+            pieces = (_inside(one.shape, x, _DEPTH * basin.spacing) for x in _points_on(wall.shape, one.shape))
+            found = next((x[0] for x in pieces if len(x)), None)
+            at = found if found is not None else _common_point(one.shape, wall.shape, _DEPTH * basin.spacing) if wall.closed or wall.shape.ground else None
             if at is None:
                 continue
             diagnostics.error(one.where, f"'{titles[one.part]}' begins inside of the wall '{name}' or across it, for example at ({', '.join(f'{v:.4g}' for v in at)})",
@@ -61,11 +65,16 @@ def check_bodies(basin: Basin, joined: set[str], diagnostics: Diagnostics) -> No
                               "move one of them, or join them by a joint" + (": bodies of the plane do not touch each other" if basin.dim == 2 else ""))
 
 
-def _points_on(shape: Shape) -> np.ndarray:
-    """Points inside of the faces of a shape in space (n, 3) [L]."""
+def _points_on(shape: Shape, other: Shape) -> Iterator[np.ndarray]:
+    """Points inside of those faces of a shape in space whose boxes meet that of another shape, in pieces (n, 3) [L]."""
     weights = np.array([(i + 1, j + 1, 7 - i - j) for i in range(7) for j in range(7 - i)]) / 9
-    points: np.ndarray = np.einsum("kc,fcd->fkd", weights, shape.points[shape.faces]).reshape(-1, 3)
-    return points
+    if (shape.low > other.high).any() or (shape.high < other.low).any():
+        return
+    for begin in range(0, len(shape.faces), _FACES):
+        corners = shape.points[shape.faces[begin : begin + _FACES]]
+        corners = corners[((corners.min(axis=1) <= other.high) & (corners.max(axis=1) >= other.low)).all(axis=1)]
+        if len(corners):
+            yield np.einsum("kc,fcd->fkd", weights, corners).reshape(-1, 3)
 
 
 def _common_point(one: Shape, other: Shape, depth: float) -> np.ndarray | None:

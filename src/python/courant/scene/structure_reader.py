@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..expressions import Formula
+from ..files import note_input
 from ..key_tables import keys as keys_of_map
 from ..optional import MissingModule, module
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from . import meshes
-from .groups import cells_of
+from .groups import Cells, cells_of, read_obj
 from .materials import read_material
 from .meshes import SOLIDS, Mesh
 from .part_names import named_part
@@ -97,6 +98,9 @@ def _sizes(reader: BasinReader, node: Node, usual: np.ndarray) -> np.ndarray:
 def _mesh(reader: BasinReader, node: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
     entry = reader.get(node, kind)
     assert entry is not None
+    named = reader.get(node, "group")
+    if named is not None and kind not in ("file", "mesh"):
+        return reader._refuse(named, "group: of a 'file' or a mesh")  # type: ignore[no-any-return]
     made = _of_file(reader, node, entry, kind, basin, thickness) if kind in ("file", "mesh") else _made(reader, node, entry, kind, basin, thickness)
     if made is None:
         return None
@@ -149,11 +153,13 @@ def _made(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Basin,
 
 
 def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Basin, thickness: float) -> Mesh | None:
-    """Elements of a mesh: Gmsh, VTK, Abaqus and others by meshio; of a surface without a thickness, which Gmsh fills."""
+    """Elements of a mesh: OBJ; Gmsh, VTK, Abaqus and others by meshio; of a surface without a thickness, which Gmsh fills."""
     hint = "Gmsh and others make a volume mesh (.msh, .vtu, .inp) of a surface; of its triangles, with a thickness, shells are made"
+    named = reader.get(node, "group")
+    group = reader.text(named) if named is not None else ""
     try:
         if _is_surface(entry, kind, reader) and not thickness:
-            return _filled(reader, node, entry, kind, basin)
+            return _filled(reader, node, entry, group, basin)
         if kind == "mesh":
             found: Any = entry.data if isinstance(entry, DataNode) else None
             if not hasattr(found, "cells") or not hasattr(found, "points"):
@@ -163,16 +169,18 @@ def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Bas
             path = Path(reader.folder, reader.text(entry))
             if not path.is_file():
                 return reader._refuse(entry, f"'{path}' is not there", "paths of a scene begin at its folder")  # type: ignore[no-any-return]
-            found, name = module("meshio").read(path), path.stem
+            note_input(path)
+            found, name = read_obj(path) if path.suffix.lower() == ".obj" else module("meshio").read(path), path.stem
     except MissingModule as fault:
         return reader._refuse(entry, str(fault), "a surface with a 'thickness' is of shells" if "gmsh" in str(fault) else "")  # type: ignore[no-any-return]
     except ShapeFault as fault:
+        if named is not None and fault.message.startswith("group: "):
+            return reader._refuse(named, fault.message, fault.hint)  # type: ignore[no-any-return]
         return reader._refuse(entry, f"a structure: {fault.message}", fault.hint)  # type: ignore[no-any-return]
     except (Exception, SystemExit) as fault:  # libraries raise exceptions of many kinds
         return reader._refuse(entry, f"the mesh cannot be read: {' '.join(str(fault).split())[:200]}", hint)  # type: ignore[no-any-return]
-    named = reader.get(node, "group")
     try:
-        made = meshes.of_cells(cells_of(found), reader.text(named) if named is not None else "")
+        made = meshes.of_cells(found if isinstance(found, Cells) else cells_of(found), group)
     except ShapeFault as fault:
         return reader._refuse(named or entry, fault.message, fault.hint)  # type: ignore[no-any-return]
     if made is None:
@@ -200,9 +208,9 @@ def _is_surface(entry: Node, kind: str, reader: BasinReader) -> bool:
     return isinstance(entry, DataNode) and not (hasattr(entry.data, "cells") and hasattr(entry.data, "points") and not hasattr(entry.data, "IsA"))
 
 
-def _filled(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Basin) -> Mesh:
+def _filled(reader: BasinReader, node: Node, entry: Node, group: str, basin: Basin) -> Mesh:
     """Tetrahedra within a closed surface, in the scene's size. Raises ShapeFault, MissingModule."""
-    raw = shape_of(entry.data) if isinstance(entry, DataNode) else read_shape(Path(reader.folder, reader.text(entry)))
+    raw = shape_of(entry.data, group) if isinstance(entry, DataNode) else read_shape(Path(reader.folder, reader.text(entry)), group)
     shape = sound(raw, closed=True, close=reader.flag(node, "close", False))
     scale = reader.get(node, "scale")
     factor = (reader.length_of(scale, "scale", "number") or 1.0) if scale is not None else 1.0
