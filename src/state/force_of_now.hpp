@@ -11,7 +11,7 @@ inline const SharedField<Real> force_of_now{
     {.name = "force_of_now", .dimension = "ML/T2", .components = 3, .restart = false}};
 }  // namespace shared_fields
 
-/// The forces on particles that accelerations in results stand for. [ML/T2]
+/// The forces of accelerations in results. [ML/T2]
 inline const Field<Real>& force_of_now(const Particles& p) {
   const Field<Real>* const known = shared_fields::force_of_now.find(p.fields);
   return known ? *known : p.f;
