@@ -1,7 +1,7 @@
 """Surfaces of triangles in space and polylines in the plane: what is inside, how much it holds, and the shells that they become."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -275,6 +275,42 @@ def merged(shape: Shape, tolerance: float) -> Shape:
     if len(kept) < len(shape.faces):
         out.notes.append(f"{len(shape.faces) - len(kept)} faces without area, or that stood twice, left out")
     return out
+
+
+def refined(shape: Shape, size: float) -> Shape:
+    """The same surface of triangles with no side longer than `size` [L]: longer ones are halved, alike in both their faces, until there are none."""
+    points, faces = shape.points, shape.faces
+    while True:
+        sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        edges, of_side = np.unique(sides, axis=0, return_inverse=True)
+        long = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1) > size
+        if not long.any():
+            return replace(shape, points=points, faces=faces)
+        middle = np.where(long, len(points) + np.cumsum(long) - 1, -1)[of_side.reshape(-1, 3)]
+        points = np.concatenate([points, points[edges[long]].mean(axis=1)])
+        out = []
+        for k in range(3):  # seen from each corner: one side, two or all three are halved
+            (a, b, c), (ab, bc, ca) = (np.roll(faces, -k, axis=1).T, np.roll(middle, -k, axis=1).T)
+            one, two = (ab >= 0) & (bc < 0) & (ca < 0), (ab >= 0) & (bc >= 0) & (ca < 0)
+            out += [np.stack(t, axis=1)[one] for t in ((a, ab, c), (ab, b, c))] + [np.stack(t, axis=1)[two] for t in ((ab, b, bc), (a, ab, c), (ab, bc, c))]
+        (a, b, c), (ab, bc, ca) = faces.T, middle.T
+        whole, none = (middle >= 0).all(axis=1), (middle < 0).all(axis=1)
+        out += [faces[none], *(np.stack(t, axis=1)[whole] for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)))]
+        faces = np.concatenate(out)
+
+
+def shrunk(shape: Shape, depth: float) -> Shape:
+    """A closed surface of triangles whose faces are moved inwards by `depth` [L], as far as their corners allow."""
+    corners = shape.points[shape.faces]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = area / np.linalg.norm(area, axis=1)[:, None]
+    matrix, side = np.zeros((len(shape.points), 3, 3)), np.zeros((len(shape.points), 3))
+    for k in range(3):  # least squares: n d = -depth of all faces around a point
+        np.add.at(matrix, shape.faces[:, k], normal[:, :, None] * normal[:, None, :])
+        np.add.at(side, shape.faces[:, k], -depth * normal)
+    by = np.einsum("pab,pb->pa", np.linalg.pinv(matrix, rcond=1e-3, hermitian=True), side)
+    by *= np.minimum(1.0, 2 * depth / np.maximum(np.linalg.norm(by, axis=1), 1e-300))[:, None]
+    return replace(shape, points=shape.points + by)
 
 
 @dataclass
