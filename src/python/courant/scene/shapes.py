@@ -278,25 +278,26 @@ def merged(shape: Shape, tolerance: float) -> Shape:
 
 
 def refined(shape: Shape, size: float) -> Shape:
-    """The same surface of triangles with no side longer than `size` [L]: longer ones are halved, alike in both their faces, until there are none."""
+    """The same surface of triangles with no side longer than `size` [L]: the longest side of a face is halved, alike in both its faces, until there
+    are none. By Rivara angles do not fall below half of the first ones."""
     points, faces = shape.points, shape.faces
     while True:
         sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
         edges, of_side = np.unique(sides, axis=0, return_inverse=True)
-        long = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1) > size
+        of_side, length = of_side.reshape(-1, 3), np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+        turn = (np.argmax(length[of_side], axis=1)[:, None] + np.arange(3)) % 3  # the longest side first
+        faces, of_side = np.take_along_axis(faces, turn, axis=1), np.take_along_axis(of_side, turn, axis=1)
+        long = np.zeros(len(edges), dtype=bool)
+        long[of_side[:, 0]] = length[of_side[:, 0]] > size
+        while not long[also := of_side[long[of_side].any(axis=1), 0]].all():
+            long[also] = True
         if not long.any():
             return replace(shape, points=points, faces=faces)
-        middle = np.where(long, len(points) + np.cumsum(long) - 1, -1)[of_side.reshape(-1, 3)]
+        (a, b, c), (ab, bc, ca) = faces.T, np.where(long, len(points) + np.cumsum(long) - 1, -1)[of_side].T
         points = np.concatenate([points, points[edges[long]].mean(axis=1)])
-        out = []
-        for k in range(3):  # seen from each corner: one side, two or all three are halved
-            (a, b, c), (ab, bc, ca) = (np.roll(faces, -k, axis=1).T, np.roll(middle, -k, axis=1).T)
-            one, two = (ab >= 0) & (bc < 0) & (ca < 0), (ab >= 0) & (bc >= 0) & (ca < 0)
-            out += [np.stack(t, axis=1)[one] for t in ((a, ab, c), (ab, b, c))] + [np.stack(t, axis=1)[two] for t in ((ab, b, bc), (a, ab, c), (ab, bc, c))]
-        (a, b, c), (ab, bc, ca) = faces.T, middle.T
-        whole, none = (middle >= 0).all(axis=1), (middle < 0).all(axis=1)
-        out += [faces[none], *(np.stack(t, axis=1)[whole] for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)))]
-        faces = np.concatenate(out)
+        none, p, q = ab < 0, (ab >= 0) & (ca >= 0), (ab >= 0) & (bc >= 0)
+        parts = [((a, b, c), none), ((a, ab, ca), p), ((ca, ab, c), p), ((a, ab, c), ~none & ~p), ((ab, b, bc), q), ((ab, bc, c), q), ((ab, b, c), ~none & ~q)]
+        faces = np.concatenate([np.stack(corners, axis=1)[some] for corners, some in parts])
 
 
 def shrunk(shape: Shape, depth: float) -> Shape:
