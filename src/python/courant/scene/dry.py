@@ -103,7 +103,7 @@ def read_dry(reader: SceneReader, root: Node, model: Model) -> bool:
         return False
     for key in _NEED_WATER:
         if (entry := reader.get(root, key)) is not None:
-            reader.error(entry, f"'{key}' needs water, which the scene has not", "of forces run.table('contacts/101') has those of body 101, and 'track' of a structure moves with it"
+            reader.error(entry, f"'{key}' needs water, which the scene has not", "run.table('contacts/101') has the forces on body 101, run.track(point) the motion of points"
                          if key == "gauges" else "leave it out")
     before = reader.diagnostics.errors
     basin = Dry()
@@ -196,9 +196,11 @@ def _choose_units(reader: SceneReader, root: Node, basin: Dry, density: float) -
     known = basin.gravity if gravity is not None else 0.0
     _, steel, basin.young = min(_STEEL, key=lambda one: (away(known, one[0]), away(density, one[1])))
     basin.density = steel / 7.85
-    ends = [end for one in (*(one.shape for one in basin.solids), *(one.mesh for one in basin.structures)) for end in (one.low[basin.dim - 1], one.high[basin.dim - 1])]
-    given = [one.velocity for one in (*basin.solids, *basin.structures) if one.velocity]
-    squared = max((float(np.dot(v, v)) for v in given), default=0.0) + 2 * basin.gravity * float(np.ptp(ends)) if ends else 0.0
+    up = basin.dim - 1
+    ends = [float(end[up]) for one in basin.solids for end in (one.shape.low, one.shape.high)]
+    ends += [float(end[up]) for part in basin.structures for end in (part.mesh.low, part.mesh.high)]
+    given = [one.velocity for one in basin.solids] + [part.velocity for part in basin.structures]
+    squared = max(float(np.dot(v, v)) if v else 0.0 for v in given) + 2 * basin.gravity * (max(ends) - min(ends)) if ends else 0.0
     basin.young *= max(1.0, squared * steel / basin.young / _SLOW**2)
     if gravity is None and density < 0.01:
         reader.diagnostics.warning(reader.at(root), f"density {density:g} is that of other units than kg and metres, and gravity {basin.gravity:g} that of metres",
@@ -268,12 +270,14 @@ def _explain(basin: Dry, model: Model) -> None:
     add(f"{basin.dim} dimensions, {'xyz'[basin.dim - 1]} upwards, no water", "points have two components in the plane, three in space",
         "none" if basin.dim == 3 else "*CONTROL_SPH IDIM: plane strain, one unit deep")
     add(f"spacing {number_text(basin.spacing)}", "given" if basin.spacing_given else
-        "a tenth of the smallest part that moves, at least a two-hundredth of the largest part; round shapes, faces of rigid parts (four spacings) and meshes without a 'size' follow it", "*NODE")
+        "a tenth of the smallest part that moves, at least a two-hundredth of the largest part; round shapes, faces of rigid parts (four spacings) and meshes "
+        "without a 'size' follow it", "*NODE")
     add(f"gravity {number_text(basin.gravity)}", "its default, or given", f"*LOAD_BODY_{'XYZ'[basin.dim - 1]}" if basin.gravity > 0 else "none")
     add("steps of 0.9 of the longest stable ones", "usual for parts that deform; contacts shorten steps where they need it", "*CONTROL_TIMESTEP TSSFAC")
     add("no damping", "free vibration goes on", "none")
     if basin.rigid_parts():
-        add(f"rigid parts touch with Young's modulus {basin.young:.4g}", "that of steel, in units that follow from gravity and the heaviest part; it grows with the square of the speed of impacts above 2.6 m/s", "*MAT_RIGID E")
+        add(f"rigid parts touch with Young's modulus {basin.young:.4g}", "that of steel, in units that follow from gravity and the heaviest part; it "
+            "grows with the square of the speed of impacts above 2.6 m/s", "*MAT_RIGID E")
     explain_solids(basin, model)
     if basin.dim == 3:
         add(f"all parts touch each other, friction {basin.friction_of_parts:g}", "parts in one joint do not; closed walls and bodies touch at their faces, thin ones a twentieth of "
