@@ -55,7 +55,7 @@ $#    hgid       ihq        qm       ibq        q1        q2
          1         0         0         0   1.0e-20${q:10}
 """ + REQUESTS
 
-_GRAVITY = """\
+GRAVITY = """\
 $ Gravity: LOAD_BODY gives the acceleration of the base, so +g pushes the water down
 *LOAD_BODY_{axis}
 $#    lcid        sf
@@ -71,10 +71,10 @@ ${{10 * end + 1:20}}${{g:20}}
 # A particle's contact stiffness is SLSFAC SFSA = 1 of that of the water itself, rho c^2; walls are stiffer.
 _SHELLS = "$ Walls: fixed rigid shells; contact acts at half their thickness, which particles half a spacing off just touch\n"
 
-_FIXED = """\
+FIXED = """\
 *MAT_RIGID
 $#     mid        ro         e        pr
-         2${7.85 * rho0:10}${5e4 * rho0 * c0^2:10}       0.3
+         2${7.85 * rho0:10}${young:10}       0.3
 $#     cmo      con1      con2
          1         7         7
 $#      a1        a2        a3        v1        v2        v3
@@ -130,6 +130,8 @@ class Basin:
     method: str = "contact"  # how walls act on the water: by contact, as mirrors, by ghost particles, or mixed: box and bodies as mirrors, other walls by contact
     level: float | None = None  # of water at rest between walls [L]
     still: bool = False  # it stays so, and walls have ghosts for that
+    wet: bool = True  # there is water
+    friction_of_parts: float = 0.0  # coefficient, where they touch each other
 
     @property
     def sides(self) -> tuple[str, ...]:
@@ -172,10 +174,19 @@ class Basin:
 
     def variables(self) -> Variables:
         """Of the cards."""
-        return {"end": self.end, "dim": self.dim, "c0": self.sound_speed, "rho0": self.density, "pc": -1e20 if self.tension else 0.0,
+        return {"end": self.end, "dim": self.dim, "c0": self.sound_speed, "rho0": self.density, "young": 5e4 * self.density * self.sound_speed**2, "pc": -1e20 if self.tension else 0.0,
                 "q": max(self.friction, 1e-20),  # 0 would be the default
                 "output": self.output, "g": self.gravity, "touch": (0.4 if self.method == "ghosts" else 0.9999) * self.spacing,
                 "sfsb": 1000.0 if self.dim == 2 and not self.whole_depth else 1.0}  # in 2D walls of a box are narrow strips
+
+    @property
+    def foreign_units(self) -> str:
+        """What shows that numbers are not those of SI units."""
+        return "" if 500 <= self.density <= 2000 else f"the water's density {self.density:g} is not"
+
+    def shell_density(self, solid: Solid) -> float:
+        """Of the material of a body [M/L3]."""
+        return solid.density
 
     @property
     def mirrors(self) -> bool:
@@ -255,17 +266,17 @@ def add_basin(basin: Basin, model: Model) -> None:
     model.parts.append(water)
     model.keywords.append(with_outlets(substitute(_CARDS, variables), basin))
     if basin.gravity > 0:
-        model.keywords.append(substitute(_GRAVITY.format(axis="Y" if basin.dim == 2 else "Z"), variables))
+        model.keywords.append(substitute(GRAVITY.format(axis="Y" if basin.dim == 2 else "Z"), variables))
     walls = basin.walls() if basin.box else None
     if walls and walls.plates:
         model.parts.append(walls)
     if basin.solids or (basin.mirrors and basin.box):
         number_parts(basin.solids)
         model.parts += [part_of(solid) for solid in basin.solids]
-        model.keywords.append("$ Fixed walls: rigid shells\n" + substitute(_FIXED, variables))
+        model.keywords.append("$ Fixed walls: rigid shells\n" + substitute(FIXED, variables))
         model.keywords += cards_of_solids(basin, walls if walls and walls.plates else None)
     elif basin.box:
-        model.keywords.append(_SHELLS + substitute(_FIXED + _BOX, variables))
+        model.keywords.append(_SHELLS + substitute(FIXED + _BOX, variables))
     rigid = [part.id for part in model.parts if part.id != WATER_PART]
     add_openings(basin, model)
     explain_basin(basin, model)

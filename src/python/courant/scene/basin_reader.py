@@ -61,6 +61,8 @@ class BasinReader(ShapeReader):
                     self.error(entry, f"'{key}' goes with 'water', which the scene has not")
             return
         before = self.diagnostics.errors
+        if (friction := self.get(root, "friction")) is not None:
+            self.error(friction, "friction: of parts in scenes without water", "*CONTACT_... cards under 'keywords' have FS and FD")
         inlets = self.get(root, "inlets")
         first = inlets.value[0] if inlets is not None and is_list(inlets) and inlets.value else None
         at = self.get(first, "at") if first is not None else None
@@ -135,8 +137,9 @@ class BasinReader(ShapeReader):
             basin.dim = self.dim = self.of_inlets
             return basin
         if bodies is None and (blocks is None or not is_list(blocks) or not blocks.value):
+            given = ", ".join(repr(str(key.value)) for key, _ in node.value if key.value != "spacing")
             self.error(node if blocks is None else blocks, "water: the scene has none: 'blocks' is a list of {low: [x, y], high: [x, y]}, in 3D with z",
-                       "a run of bodies and parts alone is a deck: courant.DeckBuilder")
+                       "a scene of bodies and parts that deform alone has no 'water'" + (f": leave out {given}" if given else ", and 'spacing' by itself"))
             return basin
         entries = blocks.value if blocks is not None and is_list(blocks) else []
         basin.water.lattices = [self.read_lattice(one, basin.spacing) for one in entries if self.is_map(one)]
@@ -161,7 +164,7 @@ class BasinReader(ShapeReader):
         high, high_dim = self.vector(node, "high")
         basin.box = (low, high)
         if self.dim and low_dim and high_dim and (low_dim != basin.dim or high_dim != basin.dim):
-            self.error(node, f"box: the water has {basin.dim} dimensions, and so must low and high")
+            self.error(node, f"box: the {'water has' if basin.wet else 'parts have'} {basin.dim} dimensions, and so must low and high")
         opened = self.get(node, "open")
         if opened is not None and is_map(opened):
             self.error(opened, "open: expected a list of sides", "open: [top]")

@@ -47,6 +47,17 @@ def explain_basin(basin: Basin, model: Model) -> None:
         pressure = basin.water.pressure
         add(f"pressure at the start {pressure.text}" if pressure else "no pressure at the start", "still water does not begin with a blow" if pressure else
             "the water moves, is not on the floor of a box, or has several surfaces; water: pressure gives one", "*INITIAL_STRESS_SPH" if pressure else "none")
+    explain_solids(basin, model)
+    if any(solid.free for solid in basin.solids):
+        add("bodies touch walls" if basin.dim == 3 else "bodies pass through walls and fall through the floor", "all that can touch does" if basin.dim == 3 else
+            "the program knows no contact of elements in the plane", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE" if basin.dim == 3 else "none")
+    explain_output(basin, model)
+
+
+def explain_solids(basin: Basin, model: Model) -> None:
+    def add(choice: str, reason: str, cards: str) -> None:
+        model.choices.append((choice, reason, cards))
+
     for solid in basin.solids:
         if solid.free:
             mass, centre, _ = solid.shape.inertia(solid.density)
@@ -59,13 +70,14 @@ def explain_basin(basin: Basin, model: Model) -> None:
             add(f"'{solid.shape.name}' moves along {' and '.join(solid.motion)}", "given", f"*BOUNDARY_PRESCRIBED_MOTION_RIGID {solid.part}")
         else:
             add(f"'{solid.shape.name}' is held", "walls do not move without a motion", f"*PART {solid.part}, *MAT_RIGID 2")
-        add(f"water keeps out of '{solid.shape.name}'" if solid.closed or solid.shape.ground else f"'{solid.shape.name}' is thin: water on both sides",
-            "closed shapes are solid; open ones have no inside", "*ELEMENT_SPH")
-    if any(solid.free for solid in basin.solids):
-        add("bodies touch walls" if basin.dim == 3 else "bodies pass through walls and fall through the floor", "all that can touch does" if basin.dim == 3 else
-            "the program knows no contact of elements in the plane", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE" if basin.dim == 3 else "none")
-    add(f"states each {number_text(basin.output)}, histories each {number_text(basin.output / 10)}", "a hundredth and a thousandth of the end, if not given",
-        "*DATABASE_BINARY_D3PLOT, *DATABASE_GLSTAT, *DATABASE_MATSUM")
+        if basin.wet:
+            add(f"water keeps out of '{solid.shape.name}'" if solid.closed or solid.shape.ground else f"'{solid.shape.name}' is thin: water on both sides",
+                "closed shapes are solid; open ones have no inside", "*ELEMENT_SPH")
+
+
+def explain_output(basin: Basin, model: Model) -> None:
+    model.choices.append((f"states each {number_text(basin.output)}, histories each {number_text(basin.output / 10)}",
+                          "a hundredth and a thousandth of the end, if not given", "*DATABASE_BINARY_D3PLOT, *DATABASE_GLSTAT, *DATABASE_MATSUM"))
 
 
 def explained(model: Model) -> str:

@@ -34,11 +34,16 @@ $#  lcidph    lcidt    lcidps    dlcidph    dlcidt   dlcidps
 """
 
 
-def joined_names(reader: BasinReader, root: Node) -> set[str]:
-    """What the joints of a scene name, titles and numbers."""
+def joined_pairs(reader: BasinReader, root: Node) -> list[set[str]]:
+    """What each joint of a scene names, titles and numbers."""
     node = reader.get(root, "joints")
     pairs = [reader.get(entry, "between") for entry in node.value] if node is not None and is_list(node) else []
-    return {str(one.value) for pair in pairs if pair is not None and is_list(pair) for one in pair.value}
+    return [{str(one.value) for one in pair.value} for pair in pairs if pair is not None and is_list(pair)]
+
+
+def joined_names(reader: BasinReader, root: Node) -> set[str]:
+    """What all of them name."""
+    return set[str]().union(*joined_pairs(reader, root))
 
 
 def read_joints(reader: SceneReader, root: Node, model: Model, basin: Basin | None) -> None:

@@ -11,6 +11,7 @@ from ..yaml_map import Node, is_map
 from .placeholders import substitute
 
 if TYPE_CHECKING:
+    from .basin import Basin
     from .basin_reader import BasinReader
 
 
@@ -50,17 +51,17 @@ ${mid:10}${ro:10}${e:10}${pr:10}${sigy:10}${etan:10}       1.0
 """
 
 
-def read_material(reader: BasinReader, node: Node | None, owner: Node, water_density: float) -> Material | None:
+def read_material(reader: BasinReader, node: Node | None, owner: Node, basin: Basin) -> Material | None:
     """Of an entry `owner`; None, with a message, where there is none."""
     if node is None:
         reader.error(owner, "'material' is missing", _EXAMPLE)
         return None
     if not is_map(node):
-        return _named(reader, node, water_density)
+        return _named(reader, node, basin)
     reader.check_keys(node, "a material", _KEYS)
     before = reader.diagnostics.errors
     like = reader.get(node, "like")
-    known = _named(reader, like, water_density) if like is not None else Material(0, 0)
+    known = _named(reader, like, basin) if like is not None else Material(0, 0)
     if known is None:
         return None
     given = {}
@@ -78,13 +79,13 @@ def read_material(reader: BasinReader, node: Node | None, owner: Node, water_den
     return replace(known, **given) if reader.diagnostics.errors == before else None
 
 
-def _named(reader: BasinReader, node: Node, water_density: float) -> Material | None:
+def _named(reader: BasinReader, node: Node, basin: Basin) -> Material | None:
     name = reader.text(node)
     if name not in NAMED:
         reader.error(node, f"material: '{name}' is not known", f"{did_you_mean(name, NAMED)}known: {', '.join(NAMED)}; {_EXAMPLE}")
         return None
-    if not 500 <= water_density <= 2000:
-        reader.error(node, f"material: numbers of '{name}' are those of SI units, and the water's density {water_density:g} is not",
+    if basin.foreign_units:
+        reader.error(node, f"material: numbers of '{name}' are those of SI units, and {basin.foreign_units}",
                      "give density and young in the units of the scene")
         return None
     return NAMED[name]

@@ -10,6 +10,7 @@ from ..words import shortest
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin_reader import BasinReader
 from .damping import read_damping
+from .dry import read_dry
 from .gases import read_gases
 from .gauges import read_gauges
 from .joints import read_joints
@@ -19,7 +20,7 @@ from .placeholders import PlaceholderFault, substitute
 _SCENE = keys_of_map(
     "the scene",
     "title text, base text|list, parameters map, spacing number, water @water, gases [@a gas], box @box, walls [@a wall], bodies [@a body], "
-    "structures [@a structure], joints [@a joint], inlets [@an inlet], outlets [@an outlet], wall_method text, gravity number, end number, output number, "
+    "structures [@a structure], joints [@a joint], inlets [@an inlet], outlets [@an outlet], wall_method text, gravity number, friction number, end number, output number, "
     "parts [@a part], gauges [@a gauge], damping [@a damping zone], keywords text|list",
 )
 _PART = keys_of_map(
@@ -46,19 +47,20 @@ class SceneReader(BasinReader):
             model.title = self.text(title)
             if len(model.title.encode()) > 80:
                 self.error(title, "title: a deck's title has at most 80 characters")
-        if not read_gases(self, root, model):
+        if not read_gases(self, root, model) and not read_dry(self, root, model):
             self.read_basin(root, model)
         for base in self.of_bases():
             if self.get(base, "parts") is not None:
                 self.read_parts(base, model)
-        if self.get(root, "parts") is not None or (not model.parts and self.get(root, "water") is None and self.get(root, "gases") is None):
+        if self.get(root, "parts") is not None or (not model.parts and self.basin is None and self.get(root, "gases") is None):
             self.read_parts(root, model)
         for base in self.of_bases():
             self.read_keywords(base, model)
         self.read_keywords(root, model)
         read_joints(self, root, model, self.basin)
-        read_gauges(self, root, model)
-        read_damping(self, root, model)
+        if self.basin is None or self.basin.wet:
+            read_gauges(self, root, model)
+            read_damping(self, root, model)
         return model
 
     # parts of any kind

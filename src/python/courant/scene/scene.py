@@ -80,11 +80,11 @@ class Scene:
     """What happens in a run. Numbers may be expressions of the scene's parameters, as texts. Two components make a scene of the plane with y upwards,
     three one of space with z upwards. Numbers are those of SI units; in others give `density` and `gravity`, too."""
 
-    def __init__(self, title: str = "untitled scene", *, spacing: Number, end: Number, output: Number | None = None, gravity: Number | None = None,
-                 density: Number | None = None, sound_speed: Number | None = None, viscosity: Number | None = None, tension: bool | None = None,
-                 velocity: Point | None = None, pressure: Number | None = None, wall_method: str | None = None,
+    def __init__(self, title: str = "untitled scene", *, spacing: Number | None = None, end: Number, output: Number | None = None,
+                 gravity: Number | None = None, density: Number | None = None, sound_speed: Number | None = None, viscosity: Number | None = None, tension: bool | None = None,
+                 velocity: Point | None = None, pressure: Number | None = None, wall_method: str | None = None, friction: Number | None = None,
                  parameters: Mapping[str, Number] | None = None) -> None:
-        """`spacing` of particles [L]; `end` of the run, `output`: interval of states [T]; of the water: `density` [M/L3], `sound_speed` [L/T], linear
+        """`spacing` of particles, and without water of meshes, where it may be left out [L]; `friction`: coefficient of parts without water; `end` of the run, `output`: interval of states [T]; of the water: `density` [M/L3], `sound_speed` [L/T], linear
         coefficient `viscosity` [-], `tension`: whether it may pull, `velocity` [L/T] and `pressure` [M/LT2] at the start, also by x, y, z;
         `wall_method`: "mirrors", "contact", "ghosts" or "mixed", box and bodies as mirrors and other walls by contact; `explain` states what is taken for what is left out."""
         mark = _caller()
@@ -94,7 +94,8 @@ class Scene:
                  "pressure": pressure}
         self._root = _node({}, mark)
         self._root.flow_style = False
-        for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "wall_method": wall_method}.items():
+        for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "friction": friction,
+                           "wall_method": wall_method}.items():
             if value is not None:
                 self._set(self._root, key, value, mark)
         self._set(self._root, "water", {key: value for key, value in water.items() if value is not None}, mark)
@@ -248,7 +249,7 @@ class Scene:
     def to_yaml(self, file: str | PathLike[str] | None = None) -> str:
         """The scene in YAML, also written to a file where one is named. Raises CourantError where it holds meshes that are in no file."""
         diagnostics = Diagnostics()
-        root = _with_lines(self._root)
+        root = _with_lines(self._described())
         for node in _all(root):
             if isinstance(node, DataNode):
                 diagnostics.error(SceneReader(self._path, {}, diagnostics).at(node), f"a mesh in memory, {node.value}, has no form in YAML",
@@ -310,9 +311,18 @@ class Scene:
         found = diagnostics if diagnostics is not None else Diagnostics()
         reader = SceneReader(self._path, self._overrides, found)
         reader.folder = self._folder
-        model = reader.read(self._root)
+        model = reader.read(self._described())
         self._raise(found)
         return model
+
+    def _described(self) -> Node:
+        """The description; of parts without water, which `__init__` cannot know, without 'water'."""
+        root, keys = self._root, {str(key.value): value for key, value in self._root.value} if is_map(self._root) else {}
+        if not self._of_python or not {"walls", "bodies", "structures"} & set(keys) or {"inlets", "gases"} & set(keys) \
+                or any(key.value != "spacing" for key, _ in keys["water"].value):
+            return root
+        return yaml.MappingNode(root.tag, [one for entry in root.value for one in (entry[1].value if entry[0].value == "water" else [entry])], root.start_mark,
+                                root.end_mark, flow_style=False)
 
     @property
     def parameters(self) -> list[str]:

@@ -1,7 +1,7 @@
 """Surfaces of triangles in space and polylines in the plane: what is inside, how much it holds, and the shells that they become."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -275,6 +275,43 @@ def merged(shape: Shape, tolerance: float) -> Shape:
     if len(kept) < len(shape.faces):
         out.notes.append(f"{len(shape.faces) - len(kept)} faces without area, or that stood twice, left out")
     return out
+
+
+def refined(shape: Shape, size: float) -> Shape:
+    """The same surface of triangles with no side longer than `size` [L]: the longest side of a face is halved, alike in both its faces, until there
+    are none. By Rivara angles do not fall below half of the first ones."""
+    points, faces = shape.points, shape.faces
+    while True:
+        sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+        edges, of_side = np.unique(sides, axis=0, return_inverse=True)
+        of_side, length = of_side.reshape(-1, 3), np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+        turn = (np.argmax(length[of_side], axis=1)[:, None] + np.arange(3)) % 3  # the longest side first
+        faces, of_side = np.take_along_axis(faces, turn, axis=1), np.take_along_axis(of_side, turn, axis=1)
+        long = np.zeros(len(edges), dtype=bool)
+        long[of_side[:, 0]] = length[of_side[:, 0]] > size
+        while not long[also := of_side[long[of_side].any(axis=1), 0]].all():
+            long[also] = True
+        if not long.any():
+            return replace(shape, points=points, faces=faces)
+        (a, b, c), (ab, bc, ca) = faces.T, np.where(long, len(points) + np.cumsum(long) - 1, -1)[of_side].T
+        points = np.concatenate([points, points[edges[long]].mean(axis=1)])
+        none, p, q = ab < 0, (ab >= 0) & (ca >= 0), (ab >= 0) & (bc >= 0)
+        parts = [((a, b, c), none), ((a, ab, ca), p), ((ca, ab, c), p), ((a, ab, c), ~none & ~p), ((ab, b, bc), q), ((ab, bc, c), q), ((ab, b, c), ~none & ~q)]
+        faces = np.concatenate([np.stack(corners, axis=1)[some] for corners, some in parts])
+
+
+def shrunk(shape: Shape, depth: float) -> Shape:
+    """A closed surface of triangles whose faces are moved inwards by `depth` [L], as far as their corners allow."""
+    corners = shape.points[shape.faces]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = area / np.linalg.norm(area, axis=1)[:, None]
+    matrix, side = np.zeros((len(shape.points), 3, 3)), np.zeros((len(shape.points), 3))
+    for k in range(3):  # least squares: n d = -depth of all faces around a point
+        np.add.at(matrix, shape.faces[:, k], normal[:, :, None] * normal[:, None, :])
+        np.add.at(side, shape.faces[:, k], -depth * normal)
+    by = np.einsum("pab,pb->pa", np.linalg.pinv(matrix, rcond=1e-3, hermitian=True), side)
+    by *= np.minimum(1.0, 2 * depth / np.maximum(np.linalg.norm(by, axis=1), 1e-300))[:, None]
+    return replace(shape, points=shape.points + by)
 
 
 @dataclass

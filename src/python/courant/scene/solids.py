@@ -46,7 +46,7 @@ class Solid:
 _RIGID = """\
 *MAT_RIGID
 $#     mid        ro         e        pr
-${mid:10}${ro:10}${5e4 * rho0 * c0^2:10}       0.3
+${mid:10}${ro:10}${young:10}       0.3
 $#     cmo      con1      con2
          1${con1:10}${con2:10}
 $#      a1        a2        a3        v1        v2        v3
@@ -125,7 +125,7 @@ $#    sfsa      sfsb
        1.0       1.0
 """
 
-_MOVING = """\
+MOVING = """\
 *DATABASE_RBDOUT
 $#      dt
 ${output / 10:10}
@@ -208,12 +208,10 @@ def wave_maker_cards(basin: Basin, solid: Solid, first_curve: int) -> tuple[str,
     return card + curves, 2
 
 
-def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
-    """All that walls and bodies need beside the material of fixed walls, which `basin` has written."""
-    held = ([walls.id] if walls else []) + [solid.part for solid in basin.solids if not solid.free]
-    bodies = [solid.part for solid in basin.solids if solid.free]
+def moving_cards(basin: Basin, walls: Part | None) -> tuple[list[str], bool]:
+    """Materials of all that moves, and motions; whether there is any."""
     flat = {"z", "rx", "ry"} if basin.dim == 2 else set[str]()
-    out = [material(basin, solid.part, solid.hold | flat, solid.density) for solid in basin.solids if solid.free]
+    out = [material(basin, solid.part, solid.hold | flat, basin.shell_density(solid)) for solid in basin.solids if solid.free]
     curve = FIRST_CURVE
     makers = [solid for solid in basin.solids if solid.piston is not None and solid.piston.own_card]
     motions = [(solid.part, solid.motion) for solid in basin.solids if solid.motion and not (solid.piston is not None and solid.piston.own_card)]
@@ -233,6 +231,14 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
         cards, count = wave_maker_cards(basin, solid, curve)
         out.append(cards)
         curve += count
+    return out, bool(out)
+
+
+def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
+    """All that walls and bodies need beside the material of fixed walls, which `basin` has written."""
+    held = ([walls.id] if walls else []) + [solid.part for solid in basin.solids if not solid.free]
+    bodies = [solid.part for solid in basin.solids if solid.free]
+    out, moves = moving_cards(basin, walls)
     out.append(part_set(SOLIDS, held + bodies))
     variables = basin.variables()
     out.append(substitute(_SURFACES, variables))
@@ -243,7 +249,7 @@ def cards_of_solids(basin: Basin, walls: Part | None) -> list[str]:
         out += [part_set(MIRRORS, mirrors), _SUPPORT.format(what=what, method=2 if basin.method == "ghosts" else 1)]
     if bodies and held and basin.dim == 3:  # elements of the plane do not touch each other
         out += [part_set(HELD, held), part_set(BODIES, bodies), _BODIES]
-    if bodies or motions or makers:
-        out.append(substitute(_MOVING, variables))
+    if moves:
+        out.append(substitute(MOVING, variables))
     return out
 

@@ -61,7 +61,7 @@ def _read_one(reader: BasinReader, node: Node, basin: Basin) -> Structure | None
         return None
     thickness = reader.length(node, "thickness") if reader.get(node, "thickness") is not None else 0.0
     mesh = _mesh(reader, node, given[0], basin, thickness)
-    material = read_material(reader, reader.get(node, "material"), node, basin.density)
+    material = read_material(reader, reader.get(node, "material"), node, basin)
     if mesh is None or material is None or reader.diagnostics.errors > before:
         return None
     title = reader.get(node, "title")

@@ -100,7 +100,7 @@ $#    sfsa      sfsb      sast
         10    1000.0${0.9999 * spacing:10}
 """
 
-_CONTROL = """\
+CONTROL = """\
 *CONTROL_CONTACT
 $#  slsfac    rwpnal    islchk    shlthk    penopt    thkchg     orien
        0.1         0         1         0         1         0         1
@@ -109,15 +109,16 @@ $#      dt
 ${output / 10:10}
 """
 
-# IGNORE: parts begin where they are, also clamped in a wall; walls are thin here, as their thickness is that of water
+# IGNORE: parts begin where they are, also clamped in a wall; walls are thinner here, as their thickness is that of water, but thicker than
+# the path of a step, within which a node that leaves a face would be taken for one that comes from behind
 _TOUCH = """\
 *CONTACT_AUTOMATIC_{kind}_ID
 $#     cid title
 {cid:10}{title}
 $#   surfa     surfb  surfatyp  surfbtyp
-         6{surfb:10}         2{surfbtyp:10}
+{surfa:10}{surfb:10}         2{surfbtyp:10}
 $#      fs        fd        dc        vc       vdc    penchk        bt        dt
-         0         0         0         0         0         0         0    1.0e20
+{friction:>10}{friction:>10}         0         0         0         0         0    1.0e20
 $#    sfsa      sfsb      sast      sbst
        1.0       1.0         0{sbst:>10}
 $#    soft    sofscl
@@ -133,6 +134,12 @@ _NODES = """\
 $#      dt
 ${output / 10:10}
 """
+
+
+def touch(kind: str, cid: int, title: str, surfa: int, surfb: int, *, sbst: float = 0.0, friction: float = 0.0) -> str:
+    """A contact between two sets of parts, or of one with itself where `surfb` is 0; `sbst`: thickness of the second one [L], 0 for that of its
+    shells."""
+    return _TOUCH.format(kind=kind, cid=cid, title=title, surfa=surfa, surfb=surfb, surfbtyp=2 if surfb else 0, sbst=f"{sbst:.3g}", friction=f"{friction:.6g}")
 
 
 def _section_cards(one: Structure) -> tuple[str, bool]:
@@ -163,15 +170,15 @@ def add_structures(basin: Basin, model: Model, rigid: list[int]) -> None:
         (part.solids if one.mesh.kind == SOLIDS else part.plates).append(one.mesh)
         model.parts.append(part)
     text += part_set(STRUCTURES, [one.part for one in basin.structures])
-    if not basin.box and not basin.solids:
-        text += substitute(_CONTROL, variables)
-    text += substitute(_WATER, variables)
+    if basin.wet and not basin.box and not basin.solids:
+        text += substitute(CONTROL, variables)
+    text += substitute(_WATER, variables) if basin.wet else ""
     if basin.dim == 3 and rigid:
         text += part_set(OTHERS, rigid)
-        text += _TOUCH.format(kind="SURFACE_TO_SURFACE", cid=4, title="deformable parts against walls and bodies", surfb=OTHERS, surfbtyp=2,
-                              sbst=f"{1e-6 * basin.spacing:.3g}")
+        text += touch("SURFACE_TO_SURFACE", 4, "deformable parts against walls and bodies", STRUCTURES, OTHERS, sbst=0.1 * basin.spacing,
+                      friction=basin.friction_of_parts)
     if basin.dim == 3:
-        text += _TOUCH.format(kind="SINGLE_SURFACE", cid=5, title="deformable parts against each other", surfb=0, surfbtyp=0, sbst="0")
+        text += touch("SINGLE_SURFACE", 5, "deformable parts against each other", STRUCTURES, 0, friction=basin.friction_of_parts)
     if any(len(one.tracked) for one in basin.structures):
         text += substitute(_NODES, variables)
     model.keywords.append("$ Deformable parts\n" + text)
@@ -185,11 +192,15 @@ def _explain(basin: Basin, model: Model) -> None:
         model.choices.append((f"'{one.title}': {len(one.mesh.cells)} {what}{held}", material_text(one.material),
                               f"*PART {one.part}, *SECTION_{'SOLID' if one.mesh.kind == SOLIDS else 'SHELL'}, "
                               f"*MAT_{'PLASTIC_KINEMATIC' if one.material.yield_stress else 'ELASTIC'}"))
+        if not basin.wet:
+            continue
         wave = one.mesh.side / one.material.sound_speed
         limit = basin.spacing / basin.sound_speed
         if wave < 0.5 * limit:
             model.choices.append((f"'{one.title}' makes steps shorter: {wave:.2g} in its shortest element, {limit:.2g} in the water",
                                   "the time that sound takes through it limits the step", "*CONTROL_TIMESTEP; a larger 'size' makes longer steps"))
+    if not basin.wet:
+        return
     model.choices.append(("water touches deformable parts" if basin.dim == 2 else "deformable parts touch water, walls, bodies and each other",
                           "the program knows no contact of elements in the plane" if basin.dim == 2 else "all that can touch does",
                           "*CONTACT_AUTOMATIC_NODES_TO_SURFACE 3" + ("" if basin.dim == 2 else ", *CONTACT_AUTOMATIC_SURFACE_TO_SURFACE 4, _SINGLE_SURFACE 5")))
