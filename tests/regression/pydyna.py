@@ -86,7 +86,8 @@ failures = []
 WRONG_LAYOUT = re.compile(r"is missing|one line too many|values behind|is not read|unknown keyword|text before|"
                           r"expected (an integer|a number), got (?!a blank field)")  # PyDyna leaves required fields blank
 # What PyDyna writes otherwise than the manual has it, and not by the values of the fields.
-ODD = {"*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_DE_COUPLING": "an _ID line without _ID",
+ODD = {"*ELEMENT_SOLID_H8TOH20": "no second line of nodes", "*ELEMENT_SOLID_TET4TOTET10": "no second line of nodes",
+       "*DEFINE_SPH_ACTIVE_REGION": "cards of all shapes at once", "*DEFINE_SPH_DE_COUPLING": "an _ID line without _ID",
        "*DEFINE_ADAPTIVE_SOLID_TO_SPH": "an _ID line without _ID",
        "*CONSTRAINED_GENERALIZED_WELD_SPOT": "an _ID line without _ID",
        "*MAT_SPOTWELD_DAMAGE-FAILURE": "the second card of each OPT, one after the other",

@@ -51,8 +51,7 @@ KeywordOf<TC> tied_keyword() {
   for (const char* name : {"FSF", "VSF"}) change(out, name, nullptr, no_effect_but(1));
   change(out, "PENCHK", nullptr, no_effect);
   change(out, "BT", "birth time: from the start", {});
-  change(out, "DT", "death time",
-         {.standard = 1e20, .check = Check::positive});
+  change(out, "DT", "death time", {.standard = 1e20, .check = Check::positive});
   change(out, "SAST", "thickness of shells of SURFA, 0: of the section; < 0, or SBST < 0: largest distance",
          {});
   change(out, "SBST", "thickness of shells of SURFB, 0: of the section; < 0: -SBST is the largest distance",
