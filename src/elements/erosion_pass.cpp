@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/run_error.hpp"
+#include "base/solid_faces.hpp"
 #include "elements/erosion.hpp"
 #include "state/restartable.hpp"
 #include "state/shared_fields.hpp"
@@ -38,10 +39,7 @@ class SolidFaces {
  private:
   using Key = std::array<Index, 5>;  ///< part and sorted corners
   static Key key(const Segments& g, Index s) {
-    std::array<Index, 4> n = g.nodes(s);
-    std::sort(n.begin(), n.end());
-    const auto end = std::unique(n.begin(), n.end());
-    std::fill(end, n.end(), *(end - 1));
+    const std::array<Index, 4> n = sorted_corners(g.nodes(s));
     return {g.part[s], n[0], n[1], n[2], n[3]};
   }
   void list(const Segments& g) {

@@ -15,8 +15,6 @@ using Face = std::array<Index, 4>;
 using FaceCorners = std::array<int, 4>;
 
 /// Corners of the faces, counter-clockwise seen from outside.
-constexpr FaceCorners of_hexahedron[] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                         {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 constexpr FaceCorners of_tetrahedron10[] = {{0, 6, 4, 4}, {6, 2, 5, 5}, {4, 5, 1, 1}, {6, 5, 4, 4},
                                             {0, 4, 7, 7}, {4, 1, 8, 8}, {7, 8, 3, 3}, {4, 8, 7, 7},
                                             {1, 5, 8, 8}, {5, 2, 9, 9}, {8, 9, 3, 3}, {5, 9, 8, 8},
@@ -42,18 +40,7 @@ constexpr int beside_corner[8][3] = {{8, 16, 11},  {8, 9, 17},   {10, 18, 9},  {
 std::span<const FaceCorners> faces_of(const SkinCell& cell) {
   if (cell.corners == 10) return of_tetrahedron10;
   if (cell.corners == 20) return of_hexahedron20;
-  return of_hexahedron;
-}
-
-/// The nodes of a face, each once; of a triangle the third again. Less than three are no face: false.
-bool nodes_of_face(const SkinCell& cell, const FaceCorners& corners, Face& out) {
-  std::size_t count = 0;
-  for (const int c : corners) {
-    const Index n = cell.node[static_cast<std::size_t>(c)];
-    if (std::find(out.begin(), out.begin() + count, n) == out.begin() + count) out[count++] = n;
-  }
-  if (count == 3) out[3] = out[2];
-  return count >= 3;
+  return hexahedron_faces;
 }
 
 }  // namespace
@@ -87,24 +74,17 @@ std::vector<std::array<Index, 8>> SkinCell::pieces() const {
   return out;
 }
 
-std::array<Index, 4> sorted_corners(std::array<Index, 4> corner) {
-  std::sort(corner.begin(), corner.end());
-  const auto end = std::unique(corner.begin(), corner.end());
-  std::fill(end, corner.end(), *(end - 1));
-  return corner;
-}
-
 std::vector<Index> add_skin(World& world, const SkinStiffness& stiffness,
                             const std::vector<SkinCell>& cells) {
   std::map<Face, int> count;
   Face face;
   for (const SkinCell& cell : cells)
     for (const FaceCorners& corners : faces_of(cell))
-      if (nodes_of_face(cell, corners, face)) ++count[sorted_corners(face)];
+      if (nodes_of_face(cell.node, corners, face)) ++count[sorted_corners(face)];
   std::vector<std::pair<const SkinCell*, Face>> outer;
   for (const SkinCell& cell : cells)
     for (const FaceCorners& corners : faces_of(cell))
-      if (nodes_of_face(cell, corners, face) && (stiffness.inner || count[sorted_corners(face)] == 1))
+      if (nodes_of_face(cell.node, corners, face) && (stiffness.inner || count[sorted_corners(face)] == 1))
         outer.emplace_back(&cell, face);
   Segments& s = world.segments;
   std::vector<Index> out;

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "base/solid_faces.hpp"
 #include "state/world.hpp"
 
 namespace courant {
@@ -26,10 +27,6 @@ struct SkinCell {
   /// tetrahedra and pyramids between those of twenty.
   std::vector<std::array<Index, 8>> pieces() const;
 };
-
-/// The corners of a face, sorted, which tell it whatever their order; of a triangle, whichever corner it
-/// repeats, the last one again.
-std::array<Index, 4> sorted_corners(std::array<Index, 4> corner);
 
 /// Adds the faces of cells that no other of them has to world.segments, with normals that point outwards, in
 /// the order of cells and faces. Returns these segments. With `inner` the world needs shared_fields::eroded

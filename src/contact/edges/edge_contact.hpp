@@ -55,8 +55,7 @@ class EdgeContact : public Force,
   /// What touches leave for all nodes; complete after `finish`.
   const Resource& touches() const { return touches_resource_; }
   bool touches_something() const { return !key_.empty(); }
-  /// Adds what a node got from all touches, in the order of touches. [ML/T2]
-  /// Whether there was any.
+  /// Adds what a node got from all touches, in the order of touches [ML/T2]; false: there was none.
   bool add_force_on(Index node, Vec& force) const;
   const std::vector<Index>& involved() const { return involved_; }  ///< nodes that may get some, ascending
 

@@ -348,7 +348,8 @@ void NodeContact::keep(Archive& archive) {
   archive("acted", acted_);
   archive("damping_work", damping_work_);
   archive("friction_work", friction_work_);
-  archive("stored", stored_);
+  const bool may_end = law_.gate.there() || law_.death < NodeContactLaw{}.death;
+  if (may_end && (!archive.loading() || archive.has("stored"))) archive("stored", stored_);
   if (archive.loading()) listed_once_ = false;
 }
 

@@ -92,8 +92,7 @@ class NodeContact : public Force,
     return p < 0 || depths_.empty() ? Real(0) : depths_[static_cast<std::size_t>(p)];
   }
   bool touches_something() const { return !shares_.empty(); }
-  /// Adds what a node got from all touches, in the order of touches. [ML/T2]
-  /// Whether there was any.
+  /// Adds what a node got from all touches, in the order of touches [ML/T2]; false: there was none.
   bool add_force_on(Index node, Vec& force) const;
   const std::vector<Index>& involved() const { return involved_; }  ///< nodes that may get some, ascending
   /// Nodes and segments of the world, 1 for those of a surface.

@@ -6,17 +6,6 @@
 
 namespace courant {
 
-namespace {
-/// As particle_arrays, with the forces of the motion, which may be others than those of the step.
-PairArrays arrays_of(Particles& p, const PairMotion& motion) {
-  PairArrays a{};
-  for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.f[k] = motion.f.data(k);
-  a.h = p.h.data();
-  a.h0 = p.active > 0 ? p.h[0] : 1;
-  return a;
-}
-}  // namespace
-
 void work_out_viscous_speed(const std::vector<PartViscosity>& q, const Particles& p, Index begin, Index end,
                             Real* qc) {
   const Real* c = p.c.data();
@@ -33,7 +22,7 @@ RateFields::RateFields(const SphSettings& s, Particles& p)
 }
 
 PairArrays RateFields::arrays(Particles& p, const PairVolumes& volumes) const {
-  PairArrays a = arrays_of(p, motion_);
+  PairArrays a = particle_arrays(p, motion_.f);
   a.kernel = kernel_;
   for (int k = 0; k < 3; ++k) a.v[k] = motion_.v.data(k);
   a.m = p.m.data(), a.rho = p.rho.data(), a.drhodt = p.drhodt.data();
@@ -74,7 +63,7 @@ ForceFields::ForceFields(const SphSettings& s, Particles& p)
 }
 
 PairArrays ForceFields::arrays(Particles& p, const PairVolumes& volumes) const {
-  PairArrays a = arrays_of(p, motion_);
+  PairArrays a = particle_arrays(p, motion_.f);
   a.kernel = kernel_;
   a.V = volumes.current();
   a.p = total_pressure_ ? total_pressure_->data() : p.p.data();

@@ -6,12 +6,12 @@
 
 namespace courant {
 
-/// The arrays that every pair loop works with (places, forces, h); the rest is null.
-inline PairArrays particle_arrays(Particles& p) {
+/// The arrays that every pair loop works with (places, forces, h); the rest is null. `f`: gets the forces.
+inline PairArrays particle_arrays(Particles& p, Field<Real>& f) {
   PairArrays a{};
   for (int k = 0; k < 3; ++k) {
     a.x[k] = p.x.data(k);
-    a.f[k] = p.f.data(k);
+    a.f[k] = f.data(k);
   }
   a.h = p.h.data();
   a.h0 = p.active > 0 ? p.h[0] : 1;
