@@ -33,6 +33,8 @@ struct Layer {
 
 /// When the middle of a layer crosses the plane. [T]
 Real entry(const Injection& inlet, const Row& row, Real number) {
+  if (inlet.held.on)  // at the soonest
+    return inlet.begin + (number + 0.5) * inlet.spacing / (row.factor * inlet.held.fastest);
   const Real way = (number + 0.5) * (inlet.spacing / (inlet.speed() * row.factor));
   return inlet.rate.time_of(way, inlet.begin);
 }
@@ -40,6 +42,7 @@ Real entry(const Injection& inlet, const Row& row, Real number) {
 /// How long before it comes in a layer must be there. The same for all layers of a row, so that with a later
 /// ENDTIM more follow behind the same ones. [T]
 Real lead(const Injection& inlet, const Row& row) {
+  if (inlet.held.on) return inlet.reach / (row.factor * inlet.held.fastest);
   constexpr Real slowest = 0.1;  // of the fastest: what is slower waits nearer by than the kernel reaches
   const Real rate = std::max(inlet.rate.least(), slowest * inlet.rate.most());
   return inlet.reach / (inlet.speed() * row.factor * rate);
@@ -47,6 +50,10 @@ Real lead(const Injection& inlet, const Row& row) {
 
 /// Layers that enter by TEND and are needed by ENDTIM; at most `most`.
 Real layers_of(const Injection& inlet, const Row& row, Real endtim, Real most) {
+  if (inlet.held.on) {
+    const Real flows = std::max(Real(0), std::min(inlet.end, endtim) - inlet.begin) * inlet.held.fastest;
+    return std::ceil((row.factor * flows + inlet.reach) / inlet.spacing) + 1;
+  }
   const Real last = std::min(inlet.end, endtim + lead(inlet, row));
   if (inlet.rate.steady()) {
     const Real time_of_layer = inlet.spacing / (inlet.speed() * row.factor);
@@ -103,10 +110,13 @@ class Layers {
     Injection& inlet = out_.inlets[row.inlet];
     const Real volume = inlet.area / static_cast<Real>(inlet.places.size()) * inlet.spacing;
     const Real t = entry(inlet, row, static_cast<Real>(layer.number));
-    const Vec v = velocity(inlet, row, layer.number, t), before = way(inlet, layer.number, v, t);
+    const bool held = inlet.held.on;
+    const Vec v = held ? Vec(Vec::Zero()) : velocity(inlet, row, layer.number, t),
+              before = held ? behind(inlet, layer.number) : way(inlet, layer.number, v, t);
+    inlet.layers = std::max(inlet.layers, layer.number + 1);
     for (const std::size_t n : row.places) {
       const Vec& place = inlet.places[n];
-      if (inlet.surface.on && !takes_part(inlet, n, t, filled_[row.inlet][n])) continue;
+      if (inlet.surface.on && !held && !takes_part(inlet, n, t, filled_[row.inlet][n])) continue;
       model_.sph.push_back({.node = static_cast<Index>(model_.nodes.size()),
                             .part = inlet.part,
                             .mass = -volume,
@@ -114,7 +124,9 @@ class Layers {
                             .spacing = inlet.is_lattice() ? 0 : std::max(inlet.spacing, inlet.cell)});
       model_.nodes.push_back({.id = ++id_, .x = place - before, .v = v});
       out_.inlet_of.push_back(static_cast<Index>(row.inlet));
-      if (has_surface_) out_.head.push_back(inlet.surface.on ? inlet.surface.head(place, t, inlet.part) : 0);
+      out_.position.push_back(static_cast<Index>(n));
+      if (has_surface_)
+        out_.head.push_back(inlet.surface.on && !held ? inlet.surface.head(place, t, inlet.part) : 0);
       ++inlet.particles;
     }
   }
@@ -131,7 +143,11 @@ class Layers {
   /// From where a particle of the layer stands at t = 0 to its place in the plane. [L]
   static Vec way(const Injection& inlet, Index number, const Vec& v, Real t) {
     if (!inlet.rate.steady()) return v * t;
-    return v * inlet.begin + (static_cast<Real>(number) + 0.5) * inlet.spacing * (inlet.v / inlet.speed());
+    return v * inlet.begin + behind(inlet, number);
+  }
+  /// From a layer to the plane, before the flow begins. [L]
+  static Vec behind(const Injection& inlet, Index number) {
+    return (static_cast<Real>(number) + 0.5) * inlet.spacing * (inlet.v / inlet.speed());
   }
   /// Of a cell that the surface cuts, as many as its share below the surface: what flows in is right in the
   /// mean.
@@ -178,7 +194,7 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
 /// Two inlets at one place: columns upstream would overlap, or leave a gap, but where they are one column
 /// with pauses.
 void report_same_place(const Injection& a, const Injection& b, const Deck& deck, Diagnostics& diagnostics) {
-  const bool steady = a.rate.steady() && b.rate.steady() && a.factor == b.factor;
+  const bool steady = a.rate.steady() && b.rate.steady() && a.factor == b.factor && !a.held.on && !b.held.on;
   const bool one_column = steady && a.v == b.v && (a.end <= b.begin || b.end <= a.begin);
   if (one_column) return;
   for (const Vec& x : a.places)
@@ -204,24 +220,50 @@ int dimension(const Deck& deck, const Entry& inlet, Diagnostics& diagnostics) {
   return 0;
 }
 
+/// The displacements of inlets with a held level, and the paths of their particles.
+std::shared_ptr<InletFlow> flow_of_held_levels(const Injections& injections, Particles& p) {
+  const auto held = [](const Injection& one) { return one.held.on; };
+  if (std::none_of(injections.inlets.begin(), injections.inlets.end(), held)) return {};
+  auto flow = std::make_shared<InletFlow>();
+  flow->displacement.assign(injections.inlets.size(), 0);
+  auto& path = p.fields.add<Real>({.name = "inlet_path", .dimension = "-", .components = 3});
+  auto& position = held_level_fields::position.add(p.fields);
+  for (std::size_t k = 0; k < injections.inlet_of.size(); ++k) {
+    const Injection& inlet = injections.inlets[static_cast<std::size_t>(injections.inlet_of[k])];
+    const Index i = injections.first + static_cast<Index>(k);
+    if (!held(inlet)) continue;
+    const Index n = injections.position[k];
+    const Real factor = inlet.factor.empty() ? 1 : inlet.factor[static_cast<std::size_t>(n)];
+    path.set(i, inlet.v / inlet.speed() * factor);
+    position[i] = n + 1;
+  }
+  flow->path = &path;
+  return flow;
+}
+
 /// Sets waiting particles to start + v t: the position does not depend, not even in the
-/// last bits, on when it woke.
+/// last bits, on when it woke. Those at a held level move by a pass of their own.
 class WaitingMotion : public Motion {
  public:
-  explicit WaitingMotion(const Field<Real>& start) : start_(start) {}
+  WaitingMotion(const Field<Real>& start, std::shared_ptr<const InletFlow> flow)
+      : start_(start), flow_(std::move(flow)) {}
   std::string name() const override { return "motion of particles that wait"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
     a.reads(start_).reads(p.state).reads(p.v).revises(p.x);
+    if (flow_) a.reads(*held_level_fields::position.find(p.fields));
   }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
+    const Field<Index>* position = flow_ ? held_level_fields::position.find(p.fields) : nullptr;
     for (Index i = std::max(begin, p.active); i < end; ++i)
-      if (p.state[i] == particle_waiting) p.x.set(i, start_.vec(i) + p.v.vec(i) * (clock.t + clock.dt));
+      if (p.state[i] == particle_waiting && (!position || (*position)[i] == 0))
+        p.x.set(i, start_.vec(i) + p.v.vec(i) * (clock.t + clock.dt));
   }
 
  private:
   const Field<Real>& start_;
+  std::shared_ptr<const InletFlow> flow_;
 };
 
 }  // namespace
@@ -263,8 +305,9 @@ Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& d
   return out;
 }
 
-void make_injected_wait(const Injections& injections, World& world, Neighbours& neighbours) {
-  if (injections.inlets.empty()) return;
+std::shared_ptr<InletFlow> make_injected_wait(const Injections& injections, World& world,
+                                              Neighbours& neighbours) {
+  if (injections.inlets.empty()) return {};
   Particles& p = world.particles;
   auto& inlet = shared_fields::inlet.add(p.fields);
   auto& start = p.fields.add<Real>({.name = "start", .dimension = "L", .components = 3});
@@ -274,10 +317,12 @@ void make_injected_wait(const Injections& injections, World& world, Neighbours& 
     p.state[i] = particle_waiting;
     start.set(i, p.x.vec(i));
   }
-  world.passes.add(std::make_shared<WaitingMotion>(start));
+  std::shared_ptr<InletFlow> flow = flow_of_held_levels(injections, p);
+  world.passes.add(std::make_shared<WaitingMotion>(start, flow));
   std::vector<InletPlane> planes;
   for (const Injection& one : injections.inlets) planes.push_back(one.plane);
-  neighbours.set_inlets(std::move(planes), inlet, start);
+  neighbours.set_inlets(std::move(planes), inlet, start, flow);
+  return flow;
 }
 
 void set_inlet_pressures(const Injections& injections, const Deck& deck, const Model& model,
@@ -312,6 +357,9 @@ std::string injections_text(const Injections& injections, const Model& model) {
   std::string text;
   for (const Injection& inlet : injections.inlets) {
     const auto flow = [&] {
+      if (inlet.held.on)
+        return fmt::format("held {}, up to {} layers of {} positions",
+                           inlet.held.energy ? "energy head" : "level", inlet.layers, inlet.places.size());
       if (!inlet.rate.steady())
         return fmt::format("{} at a time as curve {} has it", inlet.places.size(), inlet.rate.curve());
       if (!inlet.factor.empty())
@@ -324,7 +372,10 @@ std::string injections_text(const Injections& injections, const Model& model) {
         fmt::format("  {:<12}part {}: {} from {:g}{}, {} wait; area {:.5g}", "inlet",
                     model.parts[static_cast<std::size_t>(inlet.part)].id, flow(), inlet.begin,
                     inlet.end < 1e20 ? fmt::format(" to {:g}", inlet.end) : "", inlet.particles, inlet.area);
-    if (inlet.rate.steady())
+    if (inlet.held.on)
+      text += fmt::format(", measured {:.4g} downstream, relaxation time {:.4g}, speed up to {:.4g}",
+                          inlet.held.distance, inlet.held.tau, inlet.held.fastest);
+    else if (inlet.rate.steady())
       text +=
           fmt::format(", speed {:.5g}, volume per time {:.5g}", inlet.speed(), inlet.area * inlet.speed());
     text += '\n';

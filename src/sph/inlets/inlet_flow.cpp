@@ -11,13 +11,14 @@
 
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
+#include "sph/inlets/held_level.hpp"
 #include "sph/inlets/injection.hpp"
 
 namespace courant {
 
 namespace {
 
-enum class SurfaceChoice { none = 0, upper_rim = 1, point = 2 };
+enum class SurfaceChoice { none = 0, upper_rim = 1, point = 2, held = 3 };
 enum class Profile { uniform = 0, power = 1, logarithmic = 2, curve = 3 };
 
 const RegisterKeyword<CourantInflow> courant_inflow_keyword{courant_inflow_table()};
@@ -59,10 +60,17 @@ class InflowReader {
     const int errors = diagnostics_.errors();
     const auto surf = static_cast<SurfaceChoice>(card.surf);
     const auto profile = static_cast<Profile>(card.prof);
-    if (surf != SurfaceChoice::point && !Vec(card.xs, card.ys, card.zs).isZero())
-      refuse(card, "XS", "the point is that of SURF 2", "give SURF 2, or leave it blank");
+    const bool has_point = surf == SurfaceChoice::point || surf == SurfaceChoice::held;
+    if (!has_point && !Vec(card.xs, card.ys, card.zs).isZero())
+      refuse(card, "XS", "the point is that of SURF 2 and 3", "give SURF 2, or leave it blank");
+    if (surf != SurfaceChoice::held)
+      for (const auto& [field, value] : {std::pair("DIST", card.dist), std::pair("TAU", card.tau),
+                                         std::pair("QMAX", card.qmax), std::pair("HEAD", Real(card.head))})
+        if (value != 0)
+          refuse(card, field, fmt::format("SURF {} does not use it", card.surf),
+                 "give SURF 3, which holds a level, or leave it blank");
     if (surf == SurfaceChoice::none && card.lclev != 0)
-      refuse(card, "LCLEV", "without a surface it has no level", "give SURF 1 or 2");
+      refuse(card, "LCLEV", "without a surface it has no level", "give SURF 1, 2 or 3");
     if (card.lclev != 0) curve_of(card, "LCLEV", card.lclev);
     if (profile == Profile::logarithmic && !(card.ks > 0))
       refuse(card, "KS", "PROF 2 needs the roughness", "of a smooth bed it is 3.3 nu/u*");
@@ -105,10 +113,12 @@ class InflowReader {
     const Real half =
         0.5 * inlet.cell * (surface.up - surface.up.dot(inlet.plane.normal) * inlet.plane.normal).norm();
     surface.on = card.surf != 0;
-    surface.point = static_cast<SurfaceChoice>(card.surf) == SurfaceChoice::point
+    const auto surf = static_cast<SurfaceChoice>(card.surf);
+    surface.point = surf == SurfaceChoice::point || surf == SurfaceChoice::held
                         ? Vec(card.xs, card.ys, card.zs)
                         : Vec(*high + half * surface.up);
     if (card.lclev != 0) surface.level = model_.curves.at(card.lclev);
+    if (surf == SurfaceChoice::held) read_held_level(deck_, model_, card, inlet, diagnostics_);
     if (static_cast<Profile>(card.prof) != Profile::uniform) set_profile(card, inlet, height(*low) - half);
   }
 

@@ -166,7 +166,7 @@ class Basin:
         v = self.water.velocity or (0.0, 0.0, 0.0)
         squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets)]
         speed = math.sqrt(max(0.0, 2 * self.gravity * (top - bottom) + max(squares)))
-        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula for inlet in self.inlets):
+        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula and not inlet.held for inlet in self.inlets):
             return "'sound_speed' is missing: it follows only from gravity, one velocity of all the water and steady inlets; give twenty times the largest speed"
         digits = math.pow(10, math.floor(math.log10(factor * speed)) - 1)  # two of them
         self.sound_speed = math.ceil(factor * speed / digits - 1e-9) * digits

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .model import Model
     from .basin_reader import BasinReader
 
-_OF_INLET = keys_of_map("an inlet", "at vector!, direction vector!, width number, radius number, sides list, speed number!, start number, end number")
+_OF_INLET = keys_of_map("an inlet", "at vector!, direction vector!, width number, radius number, sides list, speed number, level number, head number, start number, end number")
 _OF_OUTLET = keys_of_map("an outlet", "side text!, level number")
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
 _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
@@ -35,8 +35,10 @@ class Inlet:
     at: np.ndarray  # centre [L]
     direction: np.ndarray  # of the flow, a unit vector
     size: tuple[float, ...]  # radius; two sides of a rectangle; in the plane half of the width [L]
-    speed: float  # 0: of the formula [L/T]
-    formula: str = ""  # of TIME
+    speed: float  # 0: of the formula, or it follows from the level [L/T]
+    formula: str = ""  # of TIME: of the speed, or of the level
+    level: float = 0.0  # of the water above the lower edge, where the discharge follows; 0: of the formula, or none [L]
+    held: str = ""  # "level": the surface at the inlet is held; "head": the energy head
     start: float = 0.0
     end: float = 0.0  # 0: that of the run [T]
     where: Location = field(default_factory=Location)
@@ -54,6 +56,8 @@ class Inlet:
 
     def length(self, end: float) -> float:
         """Of the water that enters before `end` [L]; infinite where the formula has functions that the program alone knows."""
+        if self.held:
+            return 1e30  # as much as flows
         if not self.formula:
             return self.speed * ((self.end or end) - self.start)
         times = np.linspace(self.start, self.end or end, _TIMES)
@@ -100,13 +104,33 @@ def _read_inlet(reader: BasinReader, node: Node, basin: Basin) -> None:
         reader.error(node, f"an inlet: expected {' or '.join(shapes)}", _INLET if basin.dim == 2 else "radius: 0.05, or sides: [0.1, 0.2]")
         return
     size = _size(reader, node, given[0])
-    speed, formula = _speed(reader, node)
+    flows = [key for key in ("speed", "level", "head") if reader.get(node, key) is not None]
+    if len(flows) != 1:
+        reader.error(node, "an inlet: expected a speed, or the level or the head that is held upstream", _INLET)
+        return
+    value, formula = _flow(reader, node, flows[0])
+    held = flows[0] if flows[0] != "speed" else ""
+    if held:
+        _check_held(reader, node, held, given[0], value, size[-1] * (2 if len(size) == 1 else 1), direction[basin.dim - 1] / (length or 1))
     start = reader.number(reader.get(node, "start"), "start") or 0.0 if reader.get(node, "start") is not None else 0.0  # type: ignore[arg-type]
     end = reader.length(node, "end", "time") if reader.get(node, "end") is not None else 0.0
     if start < 0 or (end and end <= start):
         reader.error(node, "an inlet: 'start' is a time >= 0, 'end' one behind it")
     if reader.diagnostics.errors == before:
-        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, start, end, reader.at(node)))
+        speed, level = (0.0, value) if held else (value, 0.0)
+        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, level, held, start, end, reader.at(node)))
+        if len(basin.inlets) > 1 and any(inlet.held for inlet in basin.inlets):
+            reader.error(node, "an inlet beside another one that holds a level: one of them in a scene", "leave one of the two out")
+
+
+def _check_held(reader: BasinReader, node: Node, key: str, shape: str, level: float, height: float, slope: float) -> None:
+    """A level is that of the water above the lower edge of an upright inlet, which begins on the bed."""
+    if shape == "radius":
+        reader.error(node, f"{key}: of an inlet as wide at any depth", "sides: [1, 0.5], the width and the height of the inlet, in place of radius")
+    if abs(slope) > 0.1:
+        reader.error(node, f"{key}: of an inlet through which water comes in along the bed", "direction: [1, 0]")
+    if level > height * (1 + 1e-9):
+        reader.error(node, f"{key}: {level:g} is above the upper edge of the inlet, {height:g} above its lower one", "make the inlet at least as high as the level")
 
 
 def check_inlets(reader: BasinReader, basin: Basin) -> None:
@@ -136,16 +160,16 @@ def _size(reader: BasinReader, node: Node, key: str) -> tuple[float, ...]:
     return reader.length_of(entry.value[0], "sides"), reader.length_of(entry.value[1], "sides")
 
 
-def _speed(reader: BasinReader, node: Node) -> tuple[float, str]:
-    """A number, or a formula of TIME."""
-    entry = reader.get(node, "speed")
+def _flow(reader: BasinReader, node: Node, key: str) -> tuple[float, str]:
+    """A speed or a level: a number, or a formula of TIME."""
+    entry = reader.get(node, key)
     if entry is not None and is_scalar(entry) and "TIME" in entry.value:
         try:
             return 0.0, substitute(entry.value, reader.variables)
         except PlaceholderFault as fault:
             reader.error(entry, fault.message)
             return 0.0, ""
-    return reader.length(node, "speed", "speed, or a formula of TIME,"), ""
+    return reader.length(node, key, f"{key}, or a formula of TIME,"), ""
 
 
 def _read_outlet(reader: BasinReader, node: Node, basin: Basin) -> None:
@@ -174,9 +198,14 @@ def add_openings(basin: Basin, model: Model) -> None:
     """Cards of inlets and outlets."""
     for number, inlet in enumerate(basin.inlets):
         model.keywords.append(_inlet_cards(inlet, number, basin))
-        how = f"formula {inlet.formula}" if inlet.formula else f"{inlet.speed:g}"
+        how = f"formula {inlet.formula}" if inlet.formula else f"{inlet.level or inlet.speed:g}"
         at = ", ".join(f"{v:g}" for v in inlet.at[: basin.dim])
-        model.choices.append((f"water enters at ({at}), speed {how}", "given", "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED")))
+        card = "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED")
+        if inlet.held:
+            model.choices.append((f"water enters at ({at}), {inlet.held} {how} above the lower edge", "the discharge follows from the flow inside, up to critical flow",
+                                  card + ", *COURANT_INFLOW SURF 3"))
+        else:
+            model.choices.append((f"water enters at ({at}), speed {how}", "given", card))
     if basin.outlets:
         model.keywords.append(_outlet_cards(basin))
         for outlet in basin.outlets:
@@ -194,20 +223,32 @@ def _inlet_cards(inlet: Inlet, number: int, basin: Basin) -> str:
     end = inlet.end or 1e20
     if inlet.formula:
         out += f"*DEFINE_CURVE_FUNCTION\n$#    lcid\n{curve:10}\n{inlet.formula}\n"
+    prescribed = inlet.formula and not inlet.held
+    if inlet.held:
+        out += _level_cards(inlet, curve, basin)
     if len(inlet.size) == 1:
-        speed = -float(curve) if inlet.formula else inlet.speed
+        speed = -float(curve) if prescribed else inlet.speed or 1.0  # where a level is held, only the direction counts
         return (out + "*DEFINE_SPH_INJECTION_SIMPLIFIED\n$#     pid       vel    radius     psize     offst       cid       nid\n"
                 + _row(1, speed, inlet.size[0], basin.spacing, 0.0, 0, 0) + "$#      xc        yc        zc       dnx       dny       dnz      tbeg      tend\n"
                 + _row(*inlet.at.tolist(), *inlet.direction.tolist(), inlet.start, end))
     first, second = across(inlet.direction)
-    velocity = inlet.direction * (1.0 if inlet.formula else inlet.speed)
+    velocity = inlet.direction * (1.0 if prescribed else inlet.speed or 1.0)
     system = FIRST_SYSTEM + number
     out += "*DEFINE_COORDINATE_SYSTEM\n$#     cid        xo        yo        zo        xl        yl        zl\n"
     out += _row(system, *inlet.at.tolist(), *(inlet.at + first).tolist()) + "$#      xp        yp        zp\n" + _row(*(inlet.at + second).tolist())
     return (out + "*DEFINE_SPH_INJECTION\n$#     pid      nsid       cid        vx        vy        vz      area      vmag\n"
-            + _row(1, 0, system, *velocity.tolist(), 0.0, -curve if inlet.formula else 0)
+            + _row(1, 0, system, *velocity.tolist(), 0.0, -curve if prescribed else 0)
             + "$#    tbeg      tend       nid    radius      xlen      ylen     psize\n"
             + _row(inlet.start, end, 0, 0.0, *inlet.size, basin.spacing))
+
+
+def _level_cards(inlet: Inlet, curve: int, basin: Basin) -> str:
+    """The held level: a point on it, or on the lower edge with a curve of what is above."""
+    point = inlet.at.copy()
+    point[basin.dim - 1] += inlet.level - (inlet.size[-1] if len(inlet.size) == 1 else inlet.size[-1] / 2)
+    return ("*COURANT_INFLOW\n$#     pid      surf        xs        ys        zs     lclev\n" + _row(1, 3, *point.tolist(), curve if inlet.formula else 0)
+            + "$#    prof      expo        ks    lcprof\n" + _row(0, 7.0, 0.0, 0)
+            + "$#    dist       tau      qmax      head\n" + _row(0.0, 0.0, 0.0, int(inlet.held == "head")))
 
 
 def across(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -190,12 +190,14 @@ class Scene:
         self._append(("joints",), {"kind": kind, "between": list(between), "at": at, **{key: value for key, value in given.items() if value is not None}}, _caller())
         return self
 
-    def inlet(self, at: Point, direction: Point, *, speed: Number, width: Number | None = None, radius: Number | None = None,
-              sides: Sequence[Number] | None = None, start: Number | None = None, end: Number | None = None) -> Scene:
-        """Water that enters around the point `at` along `direction`, with a `speed` [L/T], a number or a formula of TIME: in the plane through a `width`, in
-        space through a circle of a `radius` or a rectangle of two `sides`, the second the more upright one [L]; from `start` to `end` [T]."""
-        given = {"width": width, "radius": radius, "sides": sides, "start": start, "end": end}
-        self._append(("inlets",), {"at": at, "direction": direction, "speed": speed, **{key: value for key, value in given.items() if value is not None}}, _caller())
+    def inlet(self, at: Point, direction: Point, *, speed: Number | None = None, level: Number | None = None, head: Number | None = None,
+              width: Number | None = None, radius: Number | None = None, sides: Sequence[Number] | None = None,
+              start: Number | None = None, end: Number | None = None) -> Scene:
+        """Water that enters around the point `at` along `direction`, with a `speed` [L/T], a number or a formula of TIME, or with the discharge that keeps a
+        `level` of the surface or an energy `head` above the lower edge of the inlet [L], which stands on the bed: in the plane through a `width`, in space
+        through a circle of a `radius` or a rectangle of two `sides`, the second the more upright one [L]; from `start` to `end` [T]."""
+        given = {"speed": speed, "level": level, "head": head, "width": width, "radius": radius, "sides": sides, "start": start, "end": end}
+        self._append(("inlets",), {"at": at, "direction": direction, **{key: value for key, value in given.items() if value is not None}}, _caller())
         return self
 
     def outlet(self, side: str, level: Number | None = None) -> Scene:
