@@ -20,8 +20,9 @@ struct InletPlane {
 /// The flow of inlets whose velocity is not known beforehand. A particle that waits at one is at `start` +
 /// `path` s, with s the displacement of the flow of its inlet since the start.
 struct InletFlow {
-  const Field<Real>* path = nullptr;  ///< displacement of each waiting particle by that of its inlet [-]
-  std::vector<Real> displacement{};   ///< s of each inlet at the present time [L]
+  const Field<Real>* path = nullptr;   ///< displacement of each waiting particle by that of its inlet [-]
+  std::vector<Real> displacement{};    ///< s of each inlet at the present time [L]
+  const Field<Real>* start = nullptr;  ///< where each waiting particle is at s = 0 [L]
 };
 
 }  // namespace courant

@@ -74,11 +74,11 @@ class HeldLevelReader {
                    "let water come in along the bed, across the direction of gravity");
     held.upright = (up - up.dot(normal) * normal).normalized();
     held.side = dim_ == 3 ? Vec(normal.cross(held.upright)) : Vec(Vec::Zero());
-    const Extent1 rows = extent_along(inlet_.places, held.upright, inlet_.cell),
-                  columns = extent_along(inlet_.places, held.side, inlet_.cell);
+    const Extent1 rows = extent_along(inlet_.positions, held.upright, inlet_.cell),
+                  columns = extent_along(inlet_.positions, held.side, inlet_.cell);
     const std::size_t across = dim_ == 3 ? columns.count : 1;
     const Real area = (rows.high - rows.low) * (dim_ == 3 ? columns.high - columns.low : 1);
-    if (rows.count * across != inlet_.places.size() || std::abs(area - inlet_.area) > 0.02 * area)
+    if (rows.count * across != inlet_.positions.size() || std::abs(area - inlet_.area) > 0.02 * area)
       return error(
           "SURF", "the positions of the inlet do not fill an upright rectangle",
           "give XLEN and YLEN, in 2D a line, or a node set in level rows: its width must be the same "

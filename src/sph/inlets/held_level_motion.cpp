@@ -38,11 +38,11 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
         materials_(materials),
         flow_(std::move(flow)),
         inlet_(shared_fields::inlet.add(world.particles.fields)),
-        start_(*dynamic_cast<Field<Real>*>(world.particles.fields.find("start"))),
+        start_(*flow_->start),
         position_(held_level_fields::position.add(world.particles.fields)),
         reference_volume_(shared_fields::reference_volume.add(world.particles.fields)) {
     for (const Injection& inlet : inlets_)
-      states_.push_back({.due = std::vector<Real>(inlet.places.size(), 0.5)});
+      states_.push_back({.due = std::vector<Real>(inlet.positions.size(), 0.5)});
   }
   std::string name() const override { return "held levels"; }
   void declare(const World& world, Accesses& a) const override {
@@ -63,7 +63,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     Particles& p = world.particles;
     measure(p, clock.dt, begin, std::min(end, p.active));
     for (Index i = std::max(begin, p.active); i < end; ++i)
-      if (p.state[i] == particle_waiting && position_[i] != 0) place(p, i);
+      if (p.state[i] == particle_waiting && position_[i] != 0) move(p, i);
   }
   void finish(World& world, const Clock&) override { reduce(world); }
 
@@ -95,7 +95,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
       archive("depth", s.depth);
       archive("mean", s.mean);
       archive("due", s.due);
-      if (s.due.size() != inlets_[k].places.size()) archive.stop("due", "has another length");
+      if (s.due.size() != inlets_[k].positions.size()) archive.stop("due", "has another length");
     }
     if (flow_->displacement.size() != inlets_.size()) archive.stop("displacement", "has another length");
   }
@@ -197,7 +197,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     }
   }
 
-  void place(Particles& p, Index i) {
+  void move(Particles& p, Index i) {
     const auto k = static_cast<std::size_t>(inlet_[i]);
     const Vec path = flow_->path->vec(i);
     p.x.set(i, start_.vec(i) + path * flow_->displacement[k]);
@@ -206,7 +206,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
 
   const Vec& position_in_plane(Index i) const {
     const Index n = std::abs(position_[i]) - 1;
-    return inlets_[static_cast<std::size_t>(inlet_[i])].places[static_cast<std::size_t>(n)];
+    return inlets_[static_cast<std::size_t>(inlet_[i])].positions[static_cast<std::size_t>(n)];
   }
 
   /// Of a cell that the surface cuts as many come in as its share below the surface. The others are switched
@@ -248,7 +248,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
   const std::vector<PartMaterial>& materials_;
   std::shared_ptr<InletFlow> flow_;
   Field<Index>& inlet_;
-  Field<Real>& start_;
+  const Field<Real>& start_;
   Field<Index>& position_;
   Field<Real>& reference_volume_;
   std::vector<InletState> states_;

@@ -69,7 +69,7 @@ std::vector<Row> rows_of(const std::vector<Injection>& inlets) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < inlets.size(); ++k) {
     const std::size_t first = rows.size();
-    for (std::size_t n = 0; n < inlets[k].places.size(); ++n) {
+    for (std::size_t n = 0; n < inlets[k].positions.size(); ++n) {
       const Real factor = inlets[k].factor.empty() ? 1 : inlets[k].factor[n];
       auto row = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
                               [&](const Row& r) { return std::abs(r.factor - factor) <= same * factor; });
@@ -101,21 +101,21 @@ class Layers {
     for (const ModelNode& node : model.nodes) id_ = std::max(id_, node.id);
     for (const Injection& inlet : out.inlets) {
       has_surface_ |= inlet.surface.on;
-      filled_.emplace_back(inlet.places.size(), 0.5);
+      filled_.emplace_back(inlet.positions.size(), 0.5);
     }
   }
 
   void add(const Layer& layer) {
     const Row& row = rows_[layer.row];
     Injection& inlet = out_.inlets[row.inlet];
-    const Real volume = inlet.area / static_cast<Real>(inlet.places.size()) * inlet.spacing;
+    const Real volume = inlet.area / static_cast<Real>(inlet.positions.size()) * inlet.spacing;
     const Real t = entry(inlet, row, static_cast<Real>(layer.number));
     const bool held = inlet.held.on;
     const Vec v = held ? Vec(Vec::Zero()) : velocity(inlet, row, layer.number, t),
               before = held ? behind(inlet, layer.number) : way(inlet, layer.number, v, t);
     inlet.layers = std::max(inlet.layers, layer.number + 1);
     for (const std::size_t n : row.places) {
-      const Vec& place = inlet.places[n];
+      const Vec& place = inlet.positions[n];
       if (inlet.surface.on && !held && !takes_part(inlet, n, t, filled_[row.inlet][n])) continue;
       model_.sph.push_back({.node = static_cast<Index>(model_.nodes.size()),
                             .part = inlet.part,
@@ -152,7 +152,7 @@ class Layers {
   /// Of a cell that the surface cuts, as many as its share below the surface: what flows in is right in the
   /// mean.
   static bool takes_part(const Injection& inlet, std::size_t n, Real t, Real& filled) {
-    filled += inlet.surface.filled(inlet.places[n], t, inlet.cell, inlet.plane.normal);
+    filled += inlet.surface.filled(inlet.positions[n], t, inlet.cell, inlet.plane.normal);
     if (filled < 1) return false;
     filled -= 1;
     return true;
@@ -171,7 +171,7 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
                        Diagnostics& diagnostics) {
   const Real near = 0.5 * inlet.spacing;
   Real width = 0;
-  for (const Vec& place : inlet.places) width = std::max(width, (place - inlet.plane.point).norm());
+  for (const Vec& place : inlet.positions) width = std::max(width, (place - inlet.plane.point).norm());
   const Real length = inlet.reach;
   for (Index i = 0; i < particles; ++i) {
     const ModelNode& node =
@@ -180,7 +180,7 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
     if (!(upstream > 0 && upstream < length)) continue;
     const Vec x = node.x + inlet.v * (upstream / inlet.speed());  // where the flow takes it to the plane
     if ((x - inlet.plane.point).norm() > width + near) continue;
-    for (const Vec& place : inlet.places) {
+    for (const Vec& place : inlet.positions) {
       if ((x - place).norm() > near) continue;
       return diagnostics.error(
           deck.where(inlet.card),
@@ -197,8 +197,8 @@ void report_same_place(const Injection& a, const Injection& b, const Deck& deck,
   const bool steady = a.rate.steady() && b.rate.steady() && a.factor == b.factor && !a.held.on && !b.held.on;
   const bool one_column = steady && a.v == b.v && (a.end <= b.begin || b.end <= a.begin);
   if (one_column) return;
-  for (const Vec& x : a.places)
-    for (const Vec& y : b.places) {
+  for (const Vec& x : a.positions)
+    for (const Vec& y : b.positions) {
       if ((x - y).norm() > 0.5 * std::min(a.spacing, b.spacing)) continue;
       return diagnostics.error(
           deck.where(b.card),
@@ -318,9 +318,13 @@ std::shared_ptr<InletFlow> make_injected_wait(const Injections& injections, Worl
     start.set(i, p.x.vec(i));
   }
   std::shared_ptr<InletFlow> flow = flow_of_held_levels(injections, p);
+  if (flow) flow->start = &start;
   world.passes.add(std::make_shared<WaitingMotion>(start, flow));
   std::vector<InletPlane> planes;
-  for (const Injection& one : injections.inlets) planes.push_back(one.plane);
+  for (const Injection& one : injections.inlets) {
+    planes.push_back(one.plane);
+    planes.back().follows = one.held.on;
+  }
   neighbours.set_inlets(std::move(planes), inlet, start, flow);
   return flow;
 }
@@ -359,14 +363,15 @@ std::string injections_text(const Injections& injections, const Model& model) {
     const auto flow = [&] {
       if (inlet.held.on)
         return fmt::format("held {}, up to {} layers of {} positions",
-                           inlet.held.energy ? "energy head" : "level", inlet.layers, inlet.places.size());
+                           inlet.held.energy ? "energy head" : "level", inlet.layers, inlet.positions.size());
       if (!inlet.rate.steady())
-        return fmt::format("{} at a time as curve {} has it", inlet.places.size(), inlet.rate.curve());
+        return fmt::format("{} at a time as curve {} has it", inlet.positions.size(), inlet.rate.curve());
       if (!inlet.factor.empty())
-        return fmt::format("rows of {} positions at speeds of {:.4g} to {:.4g}", inlet.places.size(),
+        return fmt::format("rows of {} positions at speeds of {:.4g} to {:.4g}", inlet.positions.size(),
                            inlet.speed() * *std::min_element(inlet.factor.begin(), inlet.factor.end()),
                            inlet.speed() * *std::max_element(inlet.factor.begin(), inlet.factor.end()));
-      return fmt::format("{} particles every {:.4g} [T]", inlet.places.size(), inlet.spacing / inlet.speed());
+      return fmt::format("{} particles every {:.4g} [T]", inlet.positions.size(),
+                         inlet.spacing / inlet.speed());
     };
     text +=
         fmt::format("  {:<12}part {}: {} from {:g}{}, {} wait; area {:.5g}", "inlet",

@@ -19,10 +19,10 @@ struct Injection {
   Entry card;
   Index part = 0;  ///< index into the model's parts
   InletPlane plane{};
-  Vec v = Vec::Zero();         ///< [L/T], times `rate` and `factor`
-  InletRate rate{};            ///< over time
-  std::vector<Vec> places{};   ///< of a layer, in the plane [L]
-  std::vector<Real> factor{};  ///< on v at each position; empty: 1 everywhere
+  Vec v = Vec::Zero();           ///< [L/T], times `rate` and `factor`
+  InletRate rate{};              ///< over time
+  std::vector<Vec> positions{};  ///< of a layer, in the plane [L]
+  std::vector<Real> factor{};    ///< on v at each position; empty: 1 everywhere
   FreeSurface surface{};
   HeldLevel held{};         ///< where it is on, `v` is a direction only
   Real area = 0;            ///< of all positions [L2], in 2D per unit of depth [L]
@@ -45,7 +45,7 @@ struct Injections {
   Index first = 0;              ///< particle of the model that was made; all behind it were, too
   std::vector<Index> inlet_of;  ///< particle first + k
   std::vector<Real> head;       ///< pressure with which it comes in, over RO [L2/T2]; empty: 0
-  std::vector<Index> position;  ///< index into `places` of its inlet
+  std::vector<Index> position;  ///< index into `positions` of its inlet
 };
 
 /// The first card of an inlet; null where there is none.

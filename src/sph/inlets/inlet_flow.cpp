@@ -107,7 +107,7 @@ class InflowReader {
     surface.gravity = loads;
     const auto height = [&](const Vec& x) { return x.dot(surface.up); };
     const auto [low, high] =
-        std::minmax_element(inlet.places.begin(), inlet.places.end(),
+        std::minmax_element(inlet.positions.begin(), inlet.positions.end(),
                             [&](const Vec& a, const Vec& b) { return height(a) < height(b); });
     // The normal component of `up` takes nothing from the height of a cell.
     const Real half =
@@ -126,7 +126,7 @@ class InflowReader {
   void set_profile(const CourantInflow& card, Injection& inlet, Real bottom) {
     const auto profile = static_cast<Profile>(card.prof);
     Real sum = 0, wet = 0;
-    for (const Vec& x : inlet.places) {
+    for (const Vec& x : inlet.positions) {
       const Real z = x.dot(inlet.surface.up) - bottom;
       const Real f = profile == Profile::power         ? std::pow(z, 1 / card.expo)
                      : profile == Profile::logarithmic ? std::log(30 * z / card.ks)

@@ -149,7 +149,7 @@ TEST(HeldLevel, FollowsALevelThatSinks) {
       reservoir(sinks, 5, 0.3, "10.", "*DEFINE_CURVE\n9\n0.,0.12\n0.2,0.12\n0.6,0.084\n20.,0.084\n"));
   ASSERT_TRUE(s);
   Index closed = 0;
-  while (s->clock().t < 2) s->step([](World&, const Clock&, const std::string&) {});
+  while (s->clock().t < 4) s->step([](World&, const Clock&, const std::string&) {});
   const Particles& p = s->world().particles;
   Real highest = 0;
   for (Index i = 0; i < p.size(); ++i) {

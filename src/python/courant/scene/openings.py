@@ -126,7 +126,7 @@ def _read_inlet(reader: BasinReader, node: Node, basin: Basin) -> None:
 def _check_held(reader: BasinReader, node: Node, key: str, shape: str, level: float, height: float, slope: float) -> None:
     """A level is that of the water above the lower edge of an upright inlet, which begins on the bed."""
     if shape == "radius":
-        reader.error(node, f"{key}: of an inlet as wide at any depth", "sides: [1, 0.5], the width and the height of the inlet, in place of radius")
+        reader.error(node, f"{key}: of an inlet as wide at any depth", "sides: [1, 0.5], the width and the height of the inlet, instead of radius")
     if abs(slope) > 0.1:
         reader.error(node, f"{key}: of an inlet through which water comes in along the bed", "direction: [1, 0]")
     if level > height * (1 + 1e-9):

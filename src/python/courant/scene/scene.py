@@ -194,7 +194,7 @@ class Scene:
               width: Number | None = None, radius: Number | None = None, sides: Sequence[Number] | None = None,
               start: Number | None = None, end: Number | None = None) -> Scene:
         """Water that enters around the point `at` along `direction`, with a `speed` [L/T], a number or a formula of TIME, or with the discharge that keeps a
-        `level` of the surface or an energy `head` above the lower edge of the inlet [L], which stands on the bed: in the plane through a `width`, in space
+        `level` of the surface or an energy `head` above the lower edge of the inlet [L], which begins on the bed: in the plane through a `width`, in space
         through a circle of a `radius` or a rectangle of two `sides`, the second the more upright one [L]; from `start` to `end` [T]."""
         given = {"speed": speed, "level": level, "head": head, "width": width, "radius": radius, "sides": sides, "start": start, "end": end}
         self._append(("inlets",), {"at": at, "direction": direction, **{key: value for key, value in given.items() if value is not None}}, _caller())
