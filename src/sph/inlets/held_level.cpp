@@ -125,8 +125,9 @@ class HeldLevelReader {
                    "measure at least a few spacings downstream, or leave it blank");
     held.tau = card_.tau > 0 ? card_.tau : held.distance / std::sqrt(g * most);
     held.most = card_.qmax > 0 ? card_.qmax : std::numeric_limits<Real>::infinity();
-    const Real lowest = held.energy ? 2 * least / 3 : least;  // of the depth at the inlet
-    held.fastest = std::min(critical_velocity(most, g, held.energy), held.most / (held.width(dim_) * lowest));
+    const Real lowest = 2 * least / 3;                     // depth at the inlet, in critical flow
+    const Real highest = held.energy ? most : 1.5 * most;  // energy head, in critical flow
+    held.fastest = std::min(critical_velocity(highest, g), held.most / (held.width(dim_) * lowest));
     return true;
   }
 
@@ -235,20 +236,20 @@ class HeldLevelCheck {
 
 }  // namespace
 
-Real critical_velocity(Real level, Real g, bool energy) {
-  return std::sqrt((energy ? Real(2) / 3 : Real(1)) * g * std::max(Real(0), level));
+Real critical_velocity(Real head, Real g) {
+  return std::sqrt(Real(2) / 3 * g * std::max(Real(0), head));
 }
 
-Real depth_at_inlet(Real level, Real u, Real g, bool energy) {
-  return energy && g > 0 ? level - u * u / (2 * g) : level;
+Real depth_at_inlet(Real head, Real u, Real g) {
+  return head - u * u / (2 * g);
 }
 
-Real velocity_at_held_level(Real u, Real h, Real level, Real g, bool energy) {
-  const Real leaving = u - 2 * std::sqrt(g * std::max(Real(0), h)), held = g * std::max(Real(0), level);
-  // c^2 + (leaving + 2 c)^2/2 = held, or c^2 = held
+Real velocity_at_head(Real u, Real h, Real head, Real g) {
+  const Real leaving = u - 2 * std::sqrt(g * std::max(Real(0), h)), held = g * std::max(Real(0), head);
+  // c^2 + (leaving + 2 c)^2/2 = held; without a solution the water inside is far too high or supercritical
   const Real root = 3 * held - 0.5 * leaving * leaving;
-  const Real c = energy && root > 0 && leaving < 0 ? (std::sqrt(root) - leaving) / 3 : std::sqrt(held);
-  return std::min(leaving + 2 * c, critical_velocity(level, g, energy));
+  const Real c = root > 0 && leaving < 0 ? (std::sqrt(root) - leaving) / 3 : std::sqrt(held);
+  return std::min(leaving + 2 * c, critical_velocity(head, g));
 }
 
 void read_held_level(const Deck& deck, const Model& model, const CourantInflow& card, Injection& inlet,

@@ -40,16 +40,16 @@ inline const SharedField<Index> position{{.name = "inlet_position", .dimension =
 }  // namespace held_level_fields
 
 /// Velocity with which water comes in where depth `h` and mean velocity `u` are measured downstream, from the
-/// invariant u - 2 sqrt(g h) of the characteristic that leaves the flow through the inlet. `level`: depth
-/// held at the inlet or, with `energy`, the energy head h + u^2/(2 g) [L]. < 0: water would flow out; at most
-/// that of critical flow. [L/T] Henderson 1966, chapter 8.
-Real velocity_at_held_level(Real u, Real h, Real level, Real g, bool energy);
+/// invariant u - 2 sqrt(g h) of the characteristic that leaves the flow through the inlet, and the energy
+/// head h + u^2/(2 g) held there [L]. < 0: water would flow out; at most that of critical flow. [L/T]
+/// Henderson 1966, section 8.2.
+Real velocity_at_head(Real u, Real h, Real head, Real g);
 
-/// Critical velocity for a held depth or energy head: the fastest subcritical inflow. [L/T]
-Real critical_velocity(Real level, Real g, bool energy);
+/// Critical velocity for an energy head: the fastest subcritical inflow. [L/T]
+Real critical_velocity(Real head, Real g);
 
-/// The depth at an inlet of a held level, from which water comes in with velocity u. [L]
-Real depth_at_inlet(Real level, Real u, Real g, bool energy);
+/// The depth at an inlet of an energy head, from which water comes in with velocity u. [L]
+Real depth_at_inlet(Real head, Real u, Real g);
 
 /// Completes `held` of an inlet with positions, surface and gravity; what cannot be held is reported.
 void read_held_level(const Deck& deck, const Model& model, const CourantInflow& card, Injection& inlet,

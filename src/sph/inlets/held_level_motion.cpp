@@ -25,6 +25,7 @@ struct Measured {
 /// What an inlet needs from one step to the next.
 struct InletState {
   Real u = 0;               ///< velocity along the normal [L/T]
+  Real slow = 0;            ///< its running mean [L/T]
   Real depth = 0;           ///< measured [L]
   Real mean = 0;            ///< velocity, measured [L/T]
   std::vector<Real> due{};  ///< by position: share of a particle that is due
@@ -92,6 +93,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
       const Archive::Group inside(archive, fmt::format("inlet {}", k + 1));
       InletState& s = states_[k];
       archive("velocity", s.u);
+      archive("slow", s.slow);
       archive("depth", s.depth);
       archive("mean", s.mean);
       archive("due", s.due);
@@ -112,17 +114,22 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     const FreeSurface& s = inlet.surface;
     return s.gravity(inlet.plane.point, t, inlet.part).norm() * s.up.dot(inlet.held.upright);
   }
-  /// By which the surface at the inlet is below the energy head. [L]
+  /// Energy head at the inlet. Where the surface is held, waves still find an energy head, of the running
+  /// mean of the flow: a surface held at each moment gives them energy, and they grow before a gate.
+  Real head(std::size_t k, Real t) const {
+    const Injection& inlet = inlets_[k];
+    const Real slow = states_[k].slow;
+    return level(inlet, t) + (inlet.held.energy ? 0 : slow * slow / (2 * gravity(inlet, t)));
+  }
+  /// By which the surface at the inlet is below the level. [L]
   Real drop(std::size_t k, Real t) const {
     const Injection& inlet = inlets_[k];
-    const Real d = level(inlet, t);
-    return d - depth_at_inlet(d, states_[k].u, gravity(inlet, t), inlet.held.energy);
+    return level(inlet, t) - depth_at_inlet(head(k, t), states_[k].u, gravity(inlet, t));
   }
 
   Real wanted(std::size_t k, Real t) const {
     const Injection& inlet = inlets_[k];
-    return velocity_at_held_level(states_[k].mean, states_[k].depth, level(inlet, t), gravity(inlet, t),
-                                  inlet.held.energy);
+    return velocity_at_head(states_[k].mean, states_[k].depth, head(k, t), gravity(inlet, t));
   }
 
   /// The velocity at t, towards that of the invariant within the relaxation time.
@@ -135,15 +142,18 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     }
     u += (wanted(k, t) - u) * -std::expm1(-dt / inlet.held.tau);
     limit(k, world, t);
+    constexpr Real waves = 20;  // times sqrt(depth/g), as the level outlet
+    states_[k].slow +=
+        (u - states_[k].slow) * -std::expm1(-dt / (waves * std::sqrt(level(inlet, t) / gravity(inlet, t))));
   }
   /// From 0, as an inlet lets nothing out, to critical flow and the greatest discharge; both are counted.
   void limit(std::size_t k, World& world, Real t) {
     const Injection& inlet = inlets_[k];
-    const Real g = gravity(inlet, t), d = level(inlet, t);
+    const Real g = gravity(inlet, t), energy = head(k, t);
     Real& u = states_[k].u;
     if (u < 0) u = 0, ++world.counters["inlet_held_back"];
-    const Real depth = depth_at_inlet(d, u, g, inlet.held.energy);
-    const Real most = std::min({critical_velocity(d, g, inlet.held.energy), inlet.held.fastest,
+    const Real depth = depth_at_inlet(energy, u, g);
+    const Real most = std::min({critical_velocity(energy, g), inlet.held.fastest,
                                 inlet.held.most / (inlet.held.width(world.dim) * depth)});
     if (u > most) u = most, ++world.counters["inlet_at_its_limit"];
   }
@@ -156,6 +166,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     reduce(world);
     for (std::size_t k = 0; k < inlets_.size(); ++k) {
       if (!inlets_[k].held.on || t < inlets_[k].begin) continue;
+      states_[k].slow = states_[k].mean;
       states_[k].u = wanted(k, t);
       limit(k, world, t);
     }
