@@ -50,9 +50,9 @@ void drive_bodies(const Deck& deck, const Model& model, Diagnostics& diagnostics
   (bodies ? *bodies : none).follow(motions, deck, model, diagnostics);
 }
 
-void add_passes(const Model& model, World& world, LeftOut& left_out,
+void add_passes(const Model& model, World& world, Diagnostics& diagnostics, LeftOut& left_out,
                 const std::shared_ptr<RigidBodies>& bodies, const PointLoads& loads, BodyPasses& passes) {
-  if (bodies) bodies->set_damping(loads.damping);
+  if (bodies) bodies->set_damping(loads.damping, model, diagnostics);
   if (!bodies || !bodies->any_moves())
     return left_out.add("rigid bodies", bodies ? "all are held in every direction" : "no *MAT_RIGID");
   passes.move = true;
