@@ -92,8 +92,8 @@ def bounce(n: int = 2, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0
 
 
 def roll(n: int = 8, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, scale: float = 1.0, mu: float = 0.5, degrees: float = 10.0, R: float = 0.05, g: float = 9.81,
-         T: float = 0.5) -> DeckBuilder:
-    """A rigid wheel, a polygon of 4 n sides, rolls down a slope, which is turned level: gravity is turned instead."""
+         T: float = 0.5, gap: float = 0.0) -> DeckBuilder:
+    """A rigid wheel, a polygon of 4 n sides, rolls down a slope, which is turned level: gravity is turned instead. It begins `gap` above it."""
     deck = DeckBuilder("rolling wheel", T)
     deck.card("*SECTION_SOLID", [1, 1]).card("*SECTION_SHELL", [2, 2], [0.01] * 4)
     deck.card("*MAT_RIGID", [1, 2000.0, 2.1e9, 0.3], [1, 2, 6], "").card("*PART", "wheel", [1, 1, 1])
@@ -105,7 +105,7 @@ def roll(n: int = 8, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, 
         return np.column_stack([R * most * v[:, 0] / length, 0.02 * (u[:, 2] - 0.5), R * most * v[:, 1] / length])
 
     wheel = grid([n, n, 1], mapped)
-    wheel = wheel._replace(points=wheel.points + [0, 0, 0.005 - wheel.points[:, 2].min()], cells=wheel.cells[:, [4, 5, 6, 7, 0, 1, 2, 3]])  # right-handed
+    wheel = wheel._replace(points=wheel.points + [0, 0, 0.005 + gap - wheel.points[:, 2].min()], cells=wheel.cells[:, [4, 5, 6, 7, 0, 1, 2, 3]])  # right-handed
     deck.mesh("SOLID", 1, wheel)
     deck.mesh("SHELL", 2, grid([20, 2], lambda u: np.column_stack([0.5 * u[:, 0] - 0.1, 0.1 * (u[:, 1] - 0.5), 0 * u[:, 0]])))
     _contact(deck, kind, mu, soft, scale=scale)
