@@ -164,13 +164,17 @@ class Basin:
             return ""
         factor = 20.0  # a blow squeezes the liquid by speed / sound speed
         v = self.water.velocity or (0.0, 0.0, 0.0)
-        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets)]
-        speed = math.sqrt(max(0.0, 2 * self.gravity * (top - bottom) + max(squares)))
-        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula for inlet in self.inlets):
+        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets), *(speed**2 for speed in self.speeds_of_walls())]
+        speed = math.sqrt(2 * self.gravity * max(0.0, top - bottom) + max(squares))
+        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula for inlet in self.inlets) or not math.isfinite(speed):
             return "'sound_speed' is missing: it follows only from gravity, one velocity of all the water and steady inlets; give twenty times the largest speed"
         digits = math.pow(10, math.floor(math.log10(factor * speed)) - 1)  # two of them
         self.sound_speed = math.ceil(factor * speed / digits - 1e-9) * digits
         return ""
+
+    def speeds_of_walls(self) -> list[float]:
+        """Of the points of walls that turn which are farthest from their axes [L/T]."""
+        return [solid.rotation.fastest(solid.shape, self.end) for solid in self.solids if solid.rotation is not None]
 
     def variables(self) -> Variables:
         """Of the cards."""
