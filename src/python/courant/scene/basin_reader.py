@@ -68,6 +68,8 @@ class BasinReader(ShapeReader):
         inlets = self.get(root, "inlets")
         first = inlets.value[0] if inlets is not None and is_list(inlets) and inlets.value else None
         at = self.get(first, "at") if first is not None else None
+        if at is None and first is not None and (box := self.get(root, "box")) is not None:
+            at = self.get(box, "low")
         self.of_inlets = len(at.value) if at is not None and is_list(at) and len(at.value) in (2, 3) else 0
         basin = self.basin = self.read_water(water)
         if (gravity := self.get(root, "gravity")) is not None:
@@ -293,7 +295,7 @@ class BasinReader(ShapeReader):
             if behind:
                 report = self.diagnostics.error if np.isfinite(inlet.length(basin.end)) else self.diagnostics.warning
                 report(inlet.where, f"an inlet inside of the water: {behind} particles are behind it, where those wait that enter",
-                       "an inlet is a jet into air; of a channel, a block of moving water outside of the box is the inflow")
+                       "an inlet is a jet into air; of a channel, side: left, depth: 0.3 lets water in through an end of it")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)

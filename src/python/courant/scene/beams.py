@@ -35,7 +35,7 @@ class Section:
     tension: float = 0.0
 
     @property
-    def pulls_only(self) -> bool:
+    def is_cable(self) -> bool:
         return self.kind == "cable"
 
     @property
@@ -226,7 +226,7 @@ ${id:10}${ro:10}${e:10}         0${f0:10}         0         0
 def section_cards(part: int, section: Section, material: Material) -> str:
     """*SECTION_BEAM, of cables with their material: resultants of elastic beams, points in the section of those that yield."""
     values = {"id": float(part), "a": section.area, "ro": material.density, "e": material.young, "f0": section.tension}
-    if section.pulls_only:
+    if section.is_cable:
         return substitute(_CABLE, values)
     about_up, across, torsion, shear = section.stiffness()
     if not material.yield_stress:

@@ -79,7 +79,7 @@ class Dry(Basin):
     @property
     def step(self) -> float:
         """Of the longest stable one: cables that become slack and taut again gain energy in steps near that [-]."""
-        return 0.5 if any(one.section is not None and one.section.pulls_only for one in self.structures) else 0.9
+        return 0.5 if any(one.section is not None and one.section.is_cable for one in self.structures) else 0.9
 
     @property
     def foreign_units(self) -> str:

@@ -27,19 +27,21 @@ _GMSH_TYPES = {1: "line", 2: "triangle", 3: "quad", 4: "tetra", 5: "hexahedron",
                12: "hexahedron27", 13: "wedge18", 14: "pyramid14", 15: "vertex", 16: "quad8", 17: "hexahedron20", 18: "wedge15", 19: "pyramid13"}
 
 
-def check_file(path: Path, known: tuple[str, ...]) -> str:
-    """The end of the name of a file that is there and that is read here. Raises ShapeFault."""
+def check_file(path: Path, known: tuple[str, ...], group: str, without: tuple[str, ...]) -> str:
+    """The end of the name of a file that is there and that is read here, and that may have a `group`, if one is named. Raises ShapeFault."""
     end = path.suffix.lower()
     if end not in known:
         raise ShapeFault(f"'{path}': files that end with '{end}' are not read here", f"known: {', '.join(known)}")
     if not os.path.isfile(path):
         raise ShapeFault(f"'{path}' is not there", "paths of a scene begin at its folder")
+    if group and end in without:
+        raise ShapeFault(f"group: files that end with '{end}' have none", "OBJ, and meshes of Gmsh, Abaqus and others, have groups")
     return end
 
 
-def read_cells(path: Path) -> Cells:
-    """All cells of a file with their groups. Raises ShapeFault."""
-    end = check_file(path, MESH_FILES)
+def read_cells(path: Path, group: str = "") -> Cells:
+    """All cells of a file with their groups, among which may be one that is asked for. Raises ShapeFault."""
+    end = check_file(path, MESH_FILES, group, WITHOUT_GROUPS)
     note_input(path)
     try:
         if end == ".obj":
@@ -74,7 +76,7 @@ def _read(path: Path, end: str, printed: Any) -> Cells:
     if not faults:
         raise missing[0]
     known = [part.strip() for part in faults if part.strip()]
-    hint = "is it whole, and of the format that its name tells?"
+    hint = "is it whole, and of the format of its name?"
     if end in _OF_GMSH and missing:
         hint = f"Gmsh may read it ({str(missing[-1]).rpartition(': ')[2]}); of .msh, versions 2.2 and 4.1 are read without it"
     raise ShapeFault(f"'{path}' cannot be read: {' '.join((known or ['it is damaged'])[0].split())[:200]}", hint)

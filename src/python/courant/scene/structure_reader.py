@@ -106,9 +106,9 @@ def _section(reader: BasinReader, node: Node, kind: str) -> Section | None:
 
 def _check_section(reader: BasinReader, node: Node, mesh: Mesh, section: Section, material: Material, dim: int) -> None:
     entry = reader.get(node, "section") or node
-    if section.pulls_only and material.yield_stress:
+    if section.is_cable and material.yield_stress:
         reader.error(reader.get(node, "material") or node, "a cable is elastic", "leave out 'yield', or take a rod")
-    if not section.pulls_only and not upwards(mesh, section, dim).any(axis=1).all():
+    if not section.is_cable and not upwards(mesh, section, dim).any(axis=1).all():
         reader.error(reader.get(entry, "up") or entry, "up: some of the beams run along it", "a direction across all beams of the part")
     if mesh.side < section.radius:
         reader.diagnostics.warning(reader.at(entry), f"elements of '{mesh.name}' are {mesh.side:.3g} long, and its section {2 * section.radius:.3g} across",
@@ -198,7 +198,7 @@ def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Bas
     try:
         if kind == "file":
             path = Path(reader.folder, reader.text(entry))
-            cells, name = read_cells(path), path.stem
+            cells, name = read_cells(path, group), path.stem
         else:
             found = cells_of_object(entry.data) if isinstance(entry, DataNode) else None
             if found is None:

@@ -183,10 +183,10 @@ def add_structures(basin: Basin, model: Model, rigid: list[int]) -> None:
     text, variables = "", basin.variables() | {"spacing": basin.spacing}
     for one in basin.structures:
         section, controlled = _section_cards(one)
-        text += section + ("" if one.section is not None and one.section.pulls_only else material_cards(one.part, one.material))
+        text += section + ("" if one.section is not None and one.section.is_cable else material_cards(one.part, one.material))
         part = Part(id=one.part, title=one.title[:70], section=one.part, material=one.part, hourglass=one.part if controlled else 0, velocity=one.velocity,
                     where=one.where, fixed=one.fixed, carried=one.carried, shared=one.shared, ties=one.ties, tracked=one.tracked)
-        if one.section is not None and not one.section.pulls_only:
+        if one.section is not None and not one.section.is_cable:
             part.upwards = upwards(one.mesh, one.section, basin.dim)
         (part.solids if one.mesh.kind == SOLIDS else part.plates).append(one.mesh)
         model.parts.append(part)
@@ -216,7 +216,7 @@ def _explain(basin: Basin, model: Model) -> None:
         held = f", {', '.join(bound or ['free'])}"
         model.choices.append((f"'{one.title}': {len(one.mesh.cells)} {what}{held}", material_text(one.material),
                               f"*PART {one.part}, *SECTION_{one.mesh.kind.upper()[:-1]}, "
-                              f"*MAT_{'CABLE_DISCRETE_BEAM' if one.section is not None and one.section.pulls_only else 'PLASTIC_KINEMATIC' if one.material.yield_stress else 'ELASTIC'}"))
+                              f"*MAT_{'CABLE_DISCRETE_BEAM' if one.section is not None and one.section.is_cable else 'PLASTIC_KINEMATIC' if one.material.yield_stress else 'ELASTIC'}"))
         if one.mesh.kind == BEAMS:
             model.choices.append((f"'{one.title}' touches nothing" + (", water flows through it" if basin.wet else ""), "beams have no faces", "none"))
         if not basin.wet:

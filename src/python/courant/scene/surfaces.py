@@ -22,9 +22,7 @@ _TOLERANCE = 1e-6  # of the size, within which vertices are the same
 
 def read_shape(path: Path, group: str = "") -> Shape:
     """The surface or polyline of a file, or of one of its groups, as it is. Raises ShapeFault."""
-    end = check_file(path, KNOWN)
-    if group and (end in OUTLINES or end in WITHOUT_GROUPS):
-        raise ShapeFault(f"group: files that end with '{end}' have none", "OBJ, and meshes of Gmsh, Abaqus and others, have groups")
+    end = check_file(path, KNOWN, group, (*OUTLINES, *WITHOUT_GROUPS))
     if end in OUTLINES:
         note_input(path)
         try:
@@ -33,7 +31,7 @@ def read_shape(path: Path, group: str = "") -> Shape:
             raise
         except Exception as fault:
             raise ShapeFault(f"'{path}' cannot be read: {' '.join(str(fault).split())[:200]}") from None
-    shape = surface_of(read_cells(path).of(group))
+    shape = surface_of(read_cells(path, group).of(group))
     if not len(shape.faces):
         raise ShapeFault(f"'{path}' holds no faces", "is it whole, and of the format that its name tells?")
     return replace(shape, name=path.stem)
