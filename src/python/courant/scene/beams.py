@@ -110,7 +110,7 @@ def read_lines(reader: BasinReader, entry: Node, dim: int) -> list[np.ndarray] |
     if not is_list(entry) or not entry.value or not all(is_list(one) for one in entry.value):
         reader.error(entry, "beam: expected a list of points", example)
         return None
-    several = all(one.value and all(is_list(point) for point in one.value) for one in entry.value)
+    several = all(bool(one.value) and all(is_list(point) for point in one.value) for one in entry.value)
     out, before = [], reader.diagnostics.errors
     for line in entry.value if several else [entry]:
         if len(line.value) < 2:
@@ -156,7 +156,7 @@ def beam_mesh(lines: list[np.ndarray], size: float) -> Mesh:
     one of them. The groups `start` and `end` are the ends of a single line."""
     if not size > 0:
         size = max(float(np.linalg.norm(np.diff(line, axis=0), axis=1).sum()) for line in lines) / _USUAL
-    points, starts = [], []
+    points, starts = list[np.ndarray](), list[int]()
     for line in _cut(lines):
         pieces = [line[:1]]
         for a, b in zip(line[:-1], line[1:]):

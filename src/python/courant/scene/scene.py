@@ -96,13 +96,13 @@ class Scene:
         water = {"spacing": spacing, "density": density, "sound_speed": sound_speed, "viscosity": viscosity, "tension": tension, "velocity": velocity,
                  "pressure": pressure}
         self._root = _node({}, mark)
-        self._root.flow_style = False
+        self._root.flow_style = False  # type: ignore[attr-defined]
         for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "friction": friction,
                            "wall_method": wall_method}.items():
             if value is not None:
                 self._set(self._root, key, value, mark)
         self._set(self._root, "water", {key: value for key, value in water.items() if value is not None}, mark)
-        self._get("water").flow_style = False
+        self._get("water").flow_style = False  # type: ignore[attr-defined]
 
     @classmethod
     def from_yaml(cls, file: str | PathLike[str], **parameters: Number) -> Scene:
@@ -120,9 +120,13 @@ class Scene:
         scene._overrides = _texts(parameters)
         diagnostics = Diagnostics()
         try:
-            scene._root = SceneReader(scene._path, {}, diagnostics).load(scene._path)
+            root = SceneReader(scene._path, {}, diagnostics).load(scene._path)
+            if root is not None:
+                scene._root = root
         except OSError:
             diagnostics.error(scene._path, "the scene cannot be read", "check the name and the permissions")
+        if diagnostics.ok and root is None:
+            diagnostics.error(scene._path, "the scene is empty", "start with 'title: ...'")
         cls._raise(diagnostics)
         return scene
 
@@ -396,7 +400,7 @@ class _Held:
 def _with_lines(node: Node) -> Node:
     """The same description with polygons of points as closed lines, which YAML has a form for."""
     if is_list(node):
-        return yaml.SequenceNode(node.tag, [_with_lines(one) for one in node.value], node.start_mark, node.end_mark, flow_style=node.flow_style)
+        return yaml.SequenceNode(node.tag, [_with_lines(one) for one in node.value], node.start_mark, node.end_mark, flow_style=node.flow_style)  # type: ignore[attr-defined]
     if not is_map(node):
         return node
     entries = []
@@ -407,7 +411,7 @@ def _with_lines(node: Node) -> Node:
         else:
             closed = xy if len(xy) < 3 or np.array_equal(xy[0], xy[-1]) else np.vstack([xy, xy[:1]])
             entries.append((_node("line", key.start_mark), _node(closed, value.start_mark)))
-    return yaml.MappingNode(node.tag, entries, node.start_mark, node.end_mark, flow_style=node.flow_style)
+    return yaml.MappingNode(node.tag, entries, node.start_mark, node.end_mark, flow_style=node.flow_style)  # type: ignore[attr-defined]
 
 
 def _all(node: Node) -> list[Node]:

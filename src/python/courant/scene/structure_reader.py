@@ -204,6 +204,8 @@ def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Bas
             if found is None:
                 return reader._refuse(entry, "mesh: expected a mesh of PyVista, VTK, meshio or trimesh, or (points, triangles)",  # type: ignore[no-any-return]
                                       "a file of one is given by its name")
+            if group and not found.groups:
+                raise ShapeFault(f"group: a {type(entry.data).__name__} has none", "meshes of meshio and models of Gmsh have groups")  # type: ignore[attr-defined]
             cells, name = found, "mesh"
         part = cells.of(group)
         made = meshes.of_cells(cells, group, beams)
