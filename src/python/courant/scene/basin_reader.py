@@ -304,7 +304,8 @@ class BasinReader(ShapeReader):
         """Bodies of the plane touch no wall: one that sinks and has no joint would leave the box unseen."""
         basin.rigid_parts()  # numbers them
         held = basin.box is not None or any(not solid.free for solid in basin.solids)
-        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold
+        tied = {part for one in basin.structures for part, _ in one.carried}
+        falling = next((solid for solid in basin.solids if solid.free and solid.part not in tied and not {"x", "y"} <= solid.hold
                         and not {solid.shape.name, str(solid.part)} & joined), None)
         if basin.dim == 2 and held and falling is not None:
             self.diagnostics.warning(falling.where, f"'{falling.shape.name or 'a body'}' passes through walls and falls through the floor: bodies of the plane "
