@@ -177,13 +177,15 @@ def rotation_cards(part: int, rotation: Rotation, curve: int, series: str, formu
     values = {"pid": float(part), "vad": 0.0 if rotation.is_speed else 2.0, "lcid": float(curve)}
     k = int(np.argmax(np.abs(rotation.axis)))
     if abs(rotation.axis[k]) > 1 - 1e-9:
-        out = substitute(_DRIVEN.format(local=""), values | {"dof": 5.0 + k, "sf": math.copysign(_DEGREE, rotation.axis[k])})
+        out = substitute(_DRIVEN.format(local=""), values | {"dof": 5.0 + k, "sf": math.copysign(1.0, rotation.axis[k])})
     else:
-        out = substitute(_DRIVEN.format(local="_LOCAL"), values | {"dof": 7.0, "sf": _DEGREE})
+        out = substitute(_DRIVEN.format(local="_LOCAL"), values | {"dof": 7.0, "sf": 1.0})
         for dof in (5.0, 6.0):
             out += substitute(_DRIVEN.format(local="_LOCAL"), values | {"vad": 0.0, "dof": dof, "sf": 1e-30})
     head = substitute(formula if isinstance(rotation.given, str) else series, {"lcid": float(curve)})
-    return out + head + (rotation.given + "\n" if isinstance(rotation.given, str) else "".join(f"{t:20.9e}{v:20.9e}\n" for t, v in rotation.given))
+    if isinstance(rotation.given, str):  # radians: the field SF has too few digits for that
+        return out + head + f"{_DEGREE!r} * ({rotation.given})\n"
+    return out + head + "".join(f"{t:20.12e}{v * _DEGREE:20.12e}\n" for t, v in rotation.given)
 
 
 def local_axes(rotation: Rotation) -> tuple[np.ndarray, np.ndarray]:
