@@ -1,7 +1,8 @@
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "keyword/expectations.hpp"
 #include "laws/materials/viscoelastic_cards.hpp"
+#include "laws/most_history.hpp"
 #include "laws/strength/prony_series.hpp"
 
 namespace courant {
@@ -24,9 +25,16 @@ struct MatGeneralViscoelastic : MatGeneralViscoelasticFields {
 
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     const auto expect = expectations_of(*this, deck, diagnostics);
-    constexpr std::size_t most = 18;
-    expect(gi.size() <= most, "GI", "up to 18 cards of terms", static_cast<Real>(gi.size()),
-           "LS-DYNA has no more");
+    const auto decaying = [](const std::vector<PronyTerm>& of) {
+      return std::count_if(of.begin(), of.end(), [](const PronyTerm& term) { return term.rate > 0; });
+    };
+    // stresses of terms turn with the body, for which elements have room for two tensors
+    constexpr long most_shear = 2, most_bulk = most_history - 6 * most_shear;
+    expect(decaying(shear()) <= most_shear, "GI", "up to two terms with a BETAI",
+           static_cast<Real>(decaying(shear())),
+           "more are not supported; terms without BETAI are not limited");
+    expect(decaying(terms(ki, betaki)) <= most_bulk, "KI", "up to twelve terms with a BETAKI",
+           static_cast<Real>(decaying(terms(ki, betaki))), "more are not supported");
     const auto sum = [](const std::vector<PronyTerm>& of) {
       Real out = 0;
       for (const PronyTerm& term : of) out += term.modulus;
