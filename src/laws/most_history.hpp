@@ -3,7 +3,7 @@
 
 namespace courant {
 
-/// Numbers of the histories of a law at a point that elements and particles have room for.
+/// Largest number of history values of a law at a point, all components of tensors included.
 inline constexpr std::size_t most_history = 24;
 
 }  // namespace courant

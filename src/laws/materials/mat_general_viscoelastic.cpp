@@ -28,7 +28,7 @@ struct MatGeneralViscoelastic : MatGeneralViscoelasticFields {
     const auto decaying = [](const std::vector<PronyTerm>& of) {
       return std::count_if(of.begin(), of.end(), [](const PronyTerm& term) { return term.rate > 0; });
     };
-    // stresses of terms turn with the body, for which elements have room for two tensors
+    // stresses of terms turn with the body, and elements turn two tensors of a law
     constexpr long most_shear = 2, most_bulk = most_history - 6 * most_shear;
     expect(decaying(shear()) <= most_shear, "GI", "up to two terms with a BETAI",
            static_cast<Real>(decaying(shear())),
