@@ -195,7 +195,12 @@ const RegisterStrength<OE> mat_orthotropic_elastic{
               {{"MACF", &OE::macf, "-", "change of axes: 1 none", {.standard = 1, .allowed = {1}}},
                {"IHIS", &OE::ihis, "-", "moduli from *INITIAL_STRESS", unsupported}})},
          {.fields = with_fields<OE>(
-              fields_of_v<OE>(),
+              {{"V1", &OE::v1, "-", "direction v of AOPT 3, x", rules::direction},
+               {"V2", &OE::v2, "-", "direction v, y"},
+               {"V3", &OE::v3, "-", "direction v, z"},
+               {"D1", &OE::d1, "-", "direction d of AOPT 2 in solids, c = a x d, x", rules::direction},
+               {"D2", &OE::d2, "-", "direction d, y"},
+               {"D3", &OE::d3, "-", "direction d, z"}},
               {{"BETA", &OE::beta, "-", "angle by which a is turned about the normal, degrees"},
                {"REF", &OE::ref, "-", "reference geometry", unsupported}})}}}};
 
