@@ -103,6 +103,10 @@ class BilkhuDuboisFoam : public StrengthLaw {
   }
   static bool cut_tension(const PointBlock& block, Index i, Real tension) {
     const auto& s = block.stress;
+    const Real mean = (s[0][i] + s[1][i] + s[2][i]) / 3;
+    const Real a = s[0][i] - mean, b = s[1][i] - mean, c = s[2][i] - mean;
+    const Real J2 = 0.5 * (a * a + b * b + c * c) + s[3][i] * s[3][i] + s[4][i] * s[4][i] + s[5][i] * s[5][i];
+    if (mean + std::sqrt(4 * J2 / 3) <= tension) return false;  // a bound of the largest principal stress
     Matrix stress;
     stress << s[0][i], s[3][i], s[5][i], s[3][i], s[1][i], s[4][i], s[5][i], s[4][i], s[2][i];
     const Eigen::SelfAdjointEigenSolver<Matrix> principal(stress);
