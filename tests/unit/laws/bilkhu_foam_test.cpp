@@ -118,6 +118,17 @@ TEST(BilkhuFoam, TensionIsLimited) {
   }
 }
 
+// Pressed in two directions and torn in the third, with a high uniaxial yield stress: the cut raises the
+// pressure beyond the ellipse, so that stress is scaled again.
+TEST(BilkhuFoam, StaysOnTheEllipseWhereTensionIsCut) {
+  DrivenPoint point(law_from_cards("MAT_BILKHU/DUBOIS_FOAM",
+                                   "1,1e-10,20.0,5,6,0.0,0.05\n0.0\n*DEFINE_CURVE\n5\n0.0,0.4\n1.0,0.4\n"
+                                   "*DEFINE_CURVE\n6\n0.0,0.9\n1.0,0.9\n"));
+  point.strain({-0.03, -0.03, 0.003, 0, 0, 0});
+  EXPECT_NEAR(point.stress[2], 0, 1e-15);
+  EXPECT_NEAR(on_ellipse(pressure(point), q_of(point), 0.4, 0.9, 0.05), 1, 1e-11);
+}
+
 // LCRATE is 2 at a rate of -ln V of 10 and straight to 1 at rest; NCYCLE 9: each step has a weight of 1/5.
 TEST(BilkhuFoam, RatesScaleBothCurves) {
   const std::string rates = "*DEFINE_CURVE\n7\n0.0,1.0\n10.0,2.0\n20.0,2.0\n";

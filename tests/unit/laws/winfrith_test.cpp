@@ -233,6 +233,17 @@ TEST(Winfrith, ShearOfCracksFallsWithTheirOpening) {
   }
 }
 
+// A crack that was wide open, closed and pressed to 15 MPa bears shear as if it were not there.
+TEST(Winfrith, ClosedCracksBearShearByFriction) {
+  DrivenPoint p = point(concrete(0.1), 25);
+  for (int n = 0; n < 1000; ++n) p.strain({6e-6, 0, 0, 0, 0, 0});
+  EXPECT_NEAR(p.stress[0], 0, 1e-9);
+  p.strain({-6e-3 - 15 / M, 0, 0, 0, 0, 0});
+  EXPECT_NEAR(p.stress[0], -15, 1e-9);
+  for (int n = 0; n < 200; ++n) p.strain({0, 0, 0, 1e-6, 0, 0});
+  EXPECT_NEAR(p.stress[3], 2 * G * 2e-4, 1e-9);  // above 1.161 UTS
+}
+
 TEST(Winfrith, PressureIsThatOfTheTable) {
   // p1 = fc/3 at p1/K, then its multiples
   const Real strain[] = {0, 10 / K, 0.002, 0.004, 0.010, 0.020, 0.030, 0.041, 0.051, 0.062, 0.094};
