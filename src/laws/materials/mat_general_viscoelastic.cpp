@@ -58,7 +58,7 @@ struct MatGeneralViscoelastic : MatGeneralViscoelasticFields {
 // a unit rate leaves), 4 with a rate of 4 ln 2 (f = 1/4, 3/4 over 4 ln 2). Of D dt = (2, -1, -1), D = (4, -2,
 // -2): m = 2 2/(4 ln 2) D = D/ln 2, and 2 4 3/(16 ln 2) D = 3/2 D/ln 2. K: 5/3 that stays, 3 with a rate of 2
 // ln 2: of D dt = (1, 1, 1) 5 and 3/(4 ln 2) 6.
-constexpr Real log_of_2 = 0.69314718055994531;
+constexpr Real ln_2_of_terms = 0.69314718055994531;
 const std::string two_rates_of_shear =
     "1,2.0,1.6666666666666667\n\n1.0\n2.0,1.3862943611198906\n4.0,2.7725887222397811\n";
 const std::string rates_of_both = "1,2.0\n\n3.0,0.0,1.6666666666666667\n0.0,0.0,3.0,1.3862943611198906\n";
@@ -70,10 +70,10 @@ const RegisterStrength<MatGeneralViscoelastic> mat_general_viscoelastic{
     {{two_rates_of_shear,
       {2, -1, -1},
       {},
-      {4 + 10 / log_of_2, -2 - 5 / log_of_2, -2 - 5 / log_of_2},
+      {4 + 10 / ln_2_of_terms, -2 - 5 / ln_2_of_terms, -2 - 5 / ln_2_of_terms},
       {},
-      {4 / log_of_2, -2 / log_of_2, -2 / log_of_2, 0, 0, 0, 6 / log_of_2, -3 / log_of_2, -3 / log_of_2, 0, 0,
-       0}},
+      {4 / ln_2_of_terms, -2 / ln_2_of_terms, -2 / ln_2_of_terms, 0, 0, 0, 6 / ln_2_of_terms,
+       -3 / ln_2_of_terms, -3 / ln_2_of_terms, 0, 0, 0}},
      {two_rates_of_shear,
       {},
       {3, -1, -2, 0, 5, 0},
@@ -83,9 +83,9 @@ const RegisterStrength<MatGeneralViscoelastic> mat_general_viscoelastic{
      {rates_of_both,
       {1, 1, 1, 0.5, 0, 0},
       {},
-      {5 + 4.5 / log_of_2, 5 + 4.5 / log_of_2, 5 + 4.5 / log_of_2, 3, 0, 0},
+      {5 + 4.5 / ln_2_of_terms, 5 + 4.5 / ln_2_of_terms, 5 + 4.5 / ln_2_of_terms, 3, 0, 0},
       {},
-      {4.5 / log_of_2}}},
+      {4.5 / ln_2_of_terms}}},
     mat_general_viscoelastic_table()};
 
 }  // namespace
