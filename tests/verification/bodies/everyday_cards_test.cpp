@@ -8,6 +8,7 @@
 
 #include "joint_decks.hpp"
 #include "laws/discrete/spring_law.hpp"
+#include "model/build_model.hpp"
 #include "same_bits.hpp"
 #include "solid_decks.hpp"
 #include "state/reports.hpp"
@@ -84,7 +85,9 @@ TEST(FailingWelds, HoldWhatTurns) {
                   3 * (nodes.x.vec(1) - half * nodes.v.vec(1)).cross(nodes.v.vec(1));
     EXPECT_NEAR((p - Vec(4, 0, 0)).norm(), 0, 1e-11);
     EXPECT_NEAR(L[2], 1.5, holds ? 1e-4 : 2e-2);
-    if (holds) EXPECT_NEAR((nodes.x.vec(1) - nodes.x.vec(0)).norm(), 1, 1e-12);
+    if (holds) {
+      EXPECT_NEAR((nodes.x.vec(1) - nodes.x.vec(0)).norm(), 1, 1e-12);
+    }
   }
 }
 
@@ -246,8 +249,14 @@ TEST(Explosives, BurnBehindTheFrontOfTheirPoints) {
     const Real x = (static_cast<Real>(p.id[i]) - 0.5) * dx;
     const Real F = std::clamp(2 * (t - 1e-6 - x / D) * D / (3 * dx), Real(0), Real(1));
     EXPECT_NEAR((*burnt)[i], F, 1e-9) << x;
-    if (F == 0) EXPECT_EQ(p.p[i], 0), ++ahead;
-    if (F == 1) EXPECT_GT(p.p[i], 0), ++behind;
+    if (F == 0) {
+      EXPECT_EQ(p.p[i], 0);
+      ++ahead;
+    }
+    if (F == 1) {
+      EXPECT_GT(p.p[i], 0);
+      ++behind;
+    }
   }
   EXPECT_GT(ahead, 15);
   EXPECT_GT(behind, 15);
