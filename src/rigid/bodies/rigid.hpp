@@ -139,6 +139,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// Adds kinetic and potential energy of the bodies that can move.
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
 
+  /// One more load; a moment on a node of a body is a couple on the body.
+  void add_load(std::size_t body, BodyForceLoad load) { bodies_[body].loads.push_back(std::move(load)); }
   /// Lets bodies follow *BOUNDARY_PRESCRIBED_MOTION_RIGID and _LOCAL. Refuses by name: parts that are no
   /// rigid bodies, directions that are held or driven twice, local ones of bodies that are held or have no
   /// axes.
