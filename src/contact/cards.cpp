@@ -33,7 +33,12 @@ constexpr ContactKind kinds[] = {
     {.automatic = false, .forming = true},
     {.automatic = false, .symmetric = true, .forming = true},
     {.single = true, .runs_as = "contact of nodes with faces, without _MORTAR"},
-    {.symmetric = true, .runs_as = "contact of nodes with faces, without _MORTAR"}};
+    {.symmetric = true, .runs_as = "contact of nodes with faces, without _MORTAR"},
+    {.automatic = false, .forming = true, .runs_as = "contact of nodes with faces, without _MORTAR"},
+    {.automatic = false,
+     .symmetric = true,
+     .forming = true,
+     .runs_as = "contact of nodes with faces, without _MORTAR"}};
 constexpr ContactKind tiebreak_kinds[] = {
     {.symmetric = true, .tiebreak = Tiebreak::by_option},
     {.tiebreak = Tiebreak::by_option},
@@ -41,6 +46,13 @@ constexpr ContactKind tiebreak_kinds[] = {
     {.automatic = false, .symmetric = true, .tiebreak = Tiebreak::stress}};
 Tiebreak tiebreak_of(const C& card) {
   return tiebreak_kinds[card.name].tiebreak;
+}
+
+/// PARAM is a length with OPTION 6 and 8, a number else.
+std::string convert_opening(C& card, const Conversion& conversion) {
+  if (tiebreak_of(card) == Tiebreak::by_option && (card.option == 6 || card.option == 8))
+    card.param *= conversion.units.of("L");
+  return {};
 }
 
 /// Card 4 of those that hold until they break.
@@ -53,19 +65,22 @@ std::vector<CardOf<C>> tiebreak_cards() {
              &C::option,
              "-",
              "nodes that touch at the start or later hold for ever (1), until the stress is reached (3); "
-             "those that touch at the start until the stress (2), until the opening PARAM (6, 8)",
+             "those that touch at the start until the stress (2), until the opening PARAM (6, 8), as a "
+             "cohesive joint (9, 11)",
              {.standard = 1}},
             {"NFLS", &C::nfls, "M/LT2", "normal stress that breaks it", of_option},
             {"SFLS", &C::sfls, "M/LT2", "shear stress that breaks it", of_option},
             {"PARAM",
              &C::param,
-             "L",
-             "with OPTION 6 and 8: opening at which nothing holds any more, behind a straight fall",
-             {.check = Check::not_negative}},
-            {"ERATEN", &C::eraten, "M/T2", "of OPTION 7, 9, 10, 11, which are refused", no_effect},
-            {"ERATES", &C::erates, "M/T2", "of OPTION 7, 9, 10, 11, which are refused", no_effect},
-            {"CT2CN", &C::ct2cn, "-", "of the same options", no_effect},
-            {"CN", &C::cn, "M/L2T2", "of the same options", no_effect}},
+             "-",
+             "with OPTION 6 and 8: opening at which nothing holds any more, behind a straight fall; with 9 "
+             "and 11 the exponent of the energies, < 0 of Benzeggagh and Kenane; 0: 1",
+             {}},
+            {"ERATEN", &C::eraten, "M/T2", "energy by area of opening, of OPTION 9 and 11", of_option},
+            {"ERATES", &C::erates, "M/T2", "the same of shear", of_option},
+            {"CT2CN", &C::ct2cn, "-", "stiffness of shear over CN, of the same options; 0: 1", of_option},
+            {"CN", &C::cn, "M/L2T2", "stress over opening, of the same options; 0: of the penalty",
+             of_option}},
        .when = [](const C& card) { return tiebreak_of(card) == Tiebreak::by_option; }},
       {.fields =
            {{"NFLF", &C::nfls, "ML/T2", "normal force on a node that breaks it", strength},
@@ -82,14 +97,26 @@ std::vector<CardOf<C>> tiebreak_cards() {
 
 KeywordOf<C> contact_keyword() {
   KeywordOf<C> out = contact_of_sides<C>(
-      {"CONTACT_AUTOMATIC_NODES_TO_SURFACE", "CONTACT_AUTOMATIC_SINGLE_SURFACE",
-       "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE", "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
-       "CONTACT_AUTOMATIC_GENERAL", "CONTACT_NODES_TO_SURFACE", "CONTACT_SINGLE_SURFACE",
-       "CONTACT_SURFACE_TO_SURFACE", "CONTACT_ONE_WAY_SURFACE_TO_SURFACE", "CONTACT_ERODING_NODES_TO_SURFACE",
-       "CONTACT_ERODING_SINGLE_SURFACE", "CONTACT_ERODING_SURFACE_TO_SURFACE",
-       "CONTACT_AUTOMATIC_GENERAL_INTERIOR", "CONTACT_FORMING_NODES_TO_SURFACE",
-       "CONTACT_FORMING_ONE_WAY_SURFACE_TO_SURFACE", "CONTACT_FORMING_SURFACE_TO_SURFACE",
-       "CONTACT_AUTOMATIC_SINGLE_SURFACE_MORTAR", "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MORTAR"},
+      {"CONTACT_AUTOMATIC_NODES_TO_SURFACE",
+       "CONTACT_AUTOMATIC_SINGLE_SURFACE",
+       "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_GENERAL",
+       "CONTACT_NODES_TO_SURFACE",
+       "CONTACT_SINGLE_SURFACE",
+       "CONTACT_SURFACE_TO_SURFACE",
+       "CONTACT_ONE_WAY_SURFACE_TO_SURFACE",
+       "CONTACT_ERODING_NODES_TO_SURFACE",
+       "CONTACT_ERODING_SINGLE_SURFACE",
+       "CONTACT_ERODING_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_GENERAL_INTERIOR",
+       "CONTACT_FORMING_NODES_TO_SURFACE",
+       "CONTACT_FORMING_ONE_WAY_SURFACE_TO_SURFACE",
+       "CONTACT_FORMING_SURFACE_TO_SURFACE",
+       "CONTACT_AUTOMATIC_SINGLE_SURFACE_MORTAR",
+       "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MORTAR",
+       "CONTACT_FORMING_ONE_WAY_SURFACE_TO_SURFACE_MORTAR",
+       "CONTACT_FORMING_SURFACE_TO_SURFACE_MORTAR"},
       "penalty contact of nodes of elements, or particles (SURFA of _NODES_TO_SURFACE), with faces");
   out.cards.push_back(
       {.fields =
@@ -120,6 +147,7 @@ KeywordOf<C> tiebreak_keyword() {
       {first_tiebreak, "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE_TIEBREAK",
        "CONTACT_TIEBREAK_NODES_TO_SURFACE", "CONTACT_TIEBREAK_SURFACE_TO_SURFACE"},
       "contact of nodes of elements with faces that holds what touches at the start until it breaks");
+  out.convert = convert_opening;
   for (CardOf<C>& card : tiebreak_cards()) out.cards.push_back(std::move(card));
   for (CardOf<C>& card : contact_optional_cards<C>()) out.cards.push_back(std::move(card));
   return out;

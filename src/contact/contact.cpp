@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
@@ -209,8 +210,8 @@ void Contact::update_facets(const World& world, const Clock& clock) {
 
 void Contact::fall_asleep(World& world) {
   if (asleep_) return;
+  let_go_ += std::exchange(stored_, 0);
   for (Block& b : blocks_) {
-    for (const Touch& a : b.touches) let_go_ += 0.5 * a.k * a.share * a.depth;
     b.clear_touches();
     for (Slot& slot : b.slots) slot.behind = false, slot.room = 0;
   }
@@ -250,7 +251,10 @@ void Contact::count_leaks(World& world, const std::vector<Index>& particles) {
 
 void Contact::finish(World& world, const Clock&) {
   Real deepest = 0;
+  stored_ = 0;
   for (Block& b : blocks_) {
+    if (may_end())
+      for (const Touch& a : b.touches) stored_ += 0.5 * a.k * a.share * a.depth;
     deepest = std::max(deepest, b.deepest);
     count_leaks(world, b.crossed);
     if (!b.freed.empty()) let_go_ += let_go(b);

@@ -200,6 +200,7 @@ class Contact : public Force,
   void note_planes(const Block& b, Slot& slot) const;
   void learn_sides(const World& world, const Clock& clock, Block& b, const Slot& slot) const;
   void fall_asleep(World& world);
+  bool may_end() const { return law_.death < ContactLaw{}.death || law_.gate.there(); }
   bool is_there(Index facet) const { return !eroded_ || (*eroded_)[facets_[facet].segment] == 0; }
   void leave_deleted(World& world, const Clock& clock);
   void note_freed(World& world, const Clock& clock, Block& b);
@@ -297,6 +298,7 @@ class Contact : public Force,
   Real stiffest_ = 0;              ///< bound of the largest frequency of a node that deforms, squared [1/T2]
   const Field<Index>* eroded_;     ///< of segments; null: nothing fails
   std::int64_t eroded_count_ = 0;  ///< deleted elements when walls were listed
+  Real stored_ = 0;                ///< energy in all touches of the last step, where contact may end [ML2/T2]
   Real let_go_ = 0;                ///< energy of springs that ended with their wall, not yet in the ledger
 };
 

@@ -12,6 +12,7 @@ void Contact::keep(Archive& archive) {
   archive("friction_work", friction_work_);
   archive("soft_dt", soft_dt_);
   archive("asleep", asleep_);
+  if (may_end() && (!archive.loading() || archive.has("stored"))) archive("stored", stored_);
   if (eroded_) archive("eroded_count", eroded_count_);
   archive("reach", reach_);
   if (archive.loading()) grid_.build(facets_, reach_);

@@ -87,8 +87,8 @@ void make_shell_faces(const Deck& deck, const Model& model, World& world, Diagno
 
 void find_laws(const Deck& deck, const Model& model, Diagnostics& diagnostics, const RigidParts& rigid,
                const std::vector<ShellPart>& shells, const std::vector<BeamPart>& beams,
-               std::vector<SolidPart>& solids, ElementLaws& laws, BulkModuli& bulk_moduli,
-               MassGrowth& growth) {
+               const std::vector<CablePart>& cables, std::vector<SolidPart>& solids, ElementLaws& laws,
+               BulkModuli& bulk_moduli, MassGrowth& growth) {
   solids = find_solid_parts(deck, model, diagnostics);
   bulk_moduli.of_part.resize(model.parts.size());
   for (std::size_t k = 0; k < model.parts.size(); ++k) {
@@ -101,6 +101,10 @@ void find_laws(const Deck& deck, const Model& model, Diagnostics& diagnostics, c
     else if (rigid.of_part[k] && bulk_modulus == 0)
       bulk_modulus = model.parts[k].ssf * rigid.of_part[k]->bulk_modulus();
   }
+  for (const CablePart& part : cables)
+    if (!part.area.empty() && part.area[0] > 0)
+      bulk_moduli.of_part[static_cast<std::size_t>(part.part)] =
+          model.parts[static_cast<std::size_t>(part.part)].ssf * part.bulk_modulus();
   check_mass_scaling(deck, diagnostics);
   const MassScaling scaling = mass_scaling_of(deck);
   growth.in_run = scaling.step > 0 && !scaling.once;

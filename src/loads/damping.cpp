@@ -127,14 +127,13 @@ class DampingReader {
 /// With d = D dt/2: v+ = ((1 - d) v- + f dt/m)/(1 + d), which damps at any step; so f becomes
 /// (f - D m v-)/(1 + d). The step is not known yet: the one before represents it, what is taken from the
 /// energy is counted with the kick that is done, and no step may be so much longer that v+ turns round.
-/// Nothing acts on points that a prescribed motion drives, nor along axes that SPC hold: their velocity is
-/// given, and their reaction is that of the forces alone.
+/// Nothing acts along axes that SPC hold: their reaction is that of the forces alone. Prescribed motions
+/// overcome the damping along their directions.
 class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
  public:
   MassDamping(std::vector<Damping> damping, Points points) : damping_(std::move(damping)), points_(points) {
     for (const Damping& d : damping_) by_parts_ = by_parts_ || !d.parts.empty();
     held_axes_ = points_.held().find(*points_.set);
-    driven_ = points_.driven().find(*points_.set);
   }
   std::string name() const override { return "damping of " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
@@ -143,7 +142,6 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     if (points_.follow) a.reads(*points_.follow);
     if (by_parts_ && points_.part) a.reads(*points_.part);
     if (held_axes_) a.reads(*held_axes_);
-    if (driven_) a.reads(*driven_);
   }
 
   void start(World&, const Clock& clock) override {
@@ -192,7 +190,6 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
       const std::vector<Index>& parts = damping_[k].parts;
       if (parts.empty() || std::binary_search(parts.begin(), parts.end(), part)) sum += constants_[k];
     }
-    if (driven_ && (*driven_)[i] != 0) sum.setZero();
     for (int k = 0; held_axes_ && k < 3; ++k)
       if ((*held_axes_)[i] & (1 << k)) sum[k] = 0;
     return sum;
@@ -201,9 +198,9 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
   std::vector<Damping> damping_;
   Points points_;
   bool by_parts_ = false;
-  const Field<Index>*held_axes_ = nullptr, *driven_ = nullptr;  ///< null: there are none
-  std::vector<Vec> constants_;                                  ///< of each of them now [1/T]
-  Real half_ = 0;                                               ///< half of a step [T]
+  const Field<Index>* held_axes_ = nullptr;  ///< null: there are none
+  std::vector<Vec> constants_;               ///< of each of them now [1/T]
+  Real half_ = 0;                            ///< half of a step [T]
 };
 
 }  // namespace

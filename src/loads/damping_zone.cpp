@@ -87,7 +87,11 @@ void build_damping_zones(const Deck& deck, const Model& model, World& world, Dia
     shape.along = length / length.squaredNorm();
     if (card.boxid != 0) {
       const auto box = model.boxes.find(card.boxid);
-      if (box == model.boxes.end()) continue;
+      if (box == model.boxes.end()) {
+        deck.error(diagnostics, card, "BOXID", fmt::format("box {} does not exist", card.boxid),
+                   "define it with *DEFINE_BOX");
+        continue;
+      }
       shape.box = box->second;
     }
     const Particles& p = world.particles;

@@ -31,7 +31,6 @@ class RangeDamping : public Constraint, public EnergyTerm {
     force_ = &points.set->add<Real>(
         {.name = what + "_force", .dimension = "-", .components = 3, .restart = false});
     held_axes_ = points_.held().find(*points_.set);
-    driven_ = points_.driven().find(*points_.set);
   }
   std::string name() const override { return "damping of a range of frequencies, " + points_.name(); }
   const FieldSet& over(const World&) const override { return points_.fields(); }
@@ -40,7 +39,6 @@ class RangeDamping : public Constraint, public EnergyTerm {
     a.updates(*behind_).updates(*last_).updates(*force_);
     if (points_.follow) a.reads(*points_.follow);
     if (held_axes_) a.reads(*held_axes_);
-    if (driven_) a.reads(*driven_);
   }
 
   void start(World&, const Clock& clock) override {
@@ -64,7 +62,7 @@ class RangeDamping : public Constraint, public EnergyTerm {
         force = 0;
         if (!moves) continue;
         const auto [resists, gives] = advance(i, axis, static_cast<std::size_t>(part), clock.cycle == 0);
-        if ((driven_ && (*driven_)[i] != 0) || (held_axes_ && ((*held_axes_)[i] & (1 << axis)))) continue;
+        if (held_axes_ && ((*held_axes_)[i] & (1 << axis))) continue;
         Real& f = points_.f->data(axis)[i];
         const Real damped = (f - (*points_.m)[i] * resists) / (1 + gives);
         force = damped - f, f = damped;
@@ -106,8 +104,8 @@ class RangeDamping : public Constraint, public EnergyTerm {
   std::vector<FrequencyRange> of_part_;
   Points points_;
   Field<Real>*behind_, *last_, *force_;
-  const Field<Index>*held_axes_, *driven_;  ///< null: there are none
-  std::vector<std::vector<Step>> steps_;    ///< of each part, of each mechanism
+  const Field<Index>* held_axes_;         ///< null: there are none
+  std::vector<std::vector<Step>> steps_;  ///< of each part, of each mechanism
 };
 
 void damp_ranges(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics) {

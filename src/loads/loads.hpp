@@ -1,6 +1,7 @@
 #pragma once
 // Loads and constraints for all that moves: each is one file, written once for Points. `points`: particles
 // while they are in the order of the model, or nodes.
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -82,6 +83,9 @@ struct Damping {
   Vec scale = Vec::Ones(), turn_scale = Vec::Ones();  ///< of the axes, of rotations about them
   std::vector<Index> parts{};                         ///< sorted; empty: all
   Real at(Real t) const { return curve.abscissa.empty() ? sf : sf * curve(t); }
+  bool acts_on(Index part) const {
+    return parts.empty() || std::binary_search(parts.begin(), parts.end(), part);
+  }
 };
 /// Refuses by name: parts that are named twice, constants below 0.
 std::vector<Damping> damping_of(const Deck& deck, const Model& model, const World& world,

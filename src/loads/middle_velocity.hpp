@@ -5,22 +5,36 @@
 
 namespace courant {
 
-/// Mean of the velocities before and after the kick to come, with which forces do exactly the work that the
-/// kinetic energy gains. Of points whose motion is prescribed, that before: they do not follow their forces.
+/// The part of a vector along the directions in which prescribed motions drive a point in the coming step.
+/// `projector`: shared_fields::driven_projector.
+inline Vec driven_part(const Field<Real>& projector, Index i, const Vec& a) {
+  const auto P = [&](int k) { return projector.data(k)[i]; };
+  return {P(0) * a[0] + P(3) * a[1] + P(5) * a[2], P(3) * a[0] + P(1) * a[1] + P(4) * a[2],
+          P(5) * a[0] + P(4) * a[1] + P(2) * a[2]};
+}
+
+/// Mean of the velocities before and after the coming kick, with which forces do exactly the work that the
+/// kinetic energy gains. Along the directions of prescribed motions the velocity after it is the prescribed
+/// one.
 class MiddleVelocity {
  public:
   MiddleVelocity(const Points& points, const Clock& clock)
-      : points_(points), half_(0.5 * clock.dt_mean()), driven_(points.driven().find(*points.set)) {}
+      : points_(points),
+        half_(0.5 * clock.dt_mean()),
+        driven_(points.driven().find(*points.set)),
+        projector_(points.driven_projector().find(*points.set)),
+        change_(points.driven_change().find(*points.set)) {}
   Vec operator()(Index i) const {
-    const Vec v = points_.v->vec(i);
-    if (driven_ && (*driven_)[i] != 0) return v;
-    return v + points_.f->vec(i) * (half_ / (*points_.m)[i]);
+    const Vec v = points_.v->vec(i), by_forces = points_.f->vec(i) * (half_ / (*points_.m)[i]);
+    if (!driven_ || !projector_ || (*driven_)[i] == 0) return v + by_forces;
+    return v + by_forces - driven_part(*projector_, i, by_forces) + 0.5 * change_->vec(i);
   }
 
  private:
   const Points& points_;
   Real half_;
   const Field<Index>* driven_;
+  const Field<Real>*projector_, *change_;  ///< null: no prescribed motion
 };
 
 }  // namespace courant

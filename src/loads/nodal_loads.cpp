@@ -37,6 +37,7 @@ class NodalLoadReader {
         world_(world),
         diagnostics_(diagnostics),
         has_rotations_(shared_fields::no_rotation.find(world.nodes.fields) != nullptr) {
+    of_bodies_.assign(model.nodes.size(), 0);
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
       node_of_id_[model.nodes[n].id] = static_cast<Index>(n);
     is_loaded_.assign(model.nodes.size(), 0);
@@ -47,6 +48,9 @@ class NodalLoadReader {
       if (const auto n = node_of_id_.find(nodes.id[i]);
           n != node_of_id_.end() && (nodes.follow[i] < 2 || hand_on.contains(nodes.id[i])))
         is_loaded_[static_cast<std::size_t>(n->second)] = 1;
+    for (Index i = 0; i < nodes.size(); ++i)
+      if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && nodes.follow[i] == 1)
+        of_bodies_[static_cast<std::size_t>(n->second)] = 1, some_of_bodies_ = true;
     turns_.assign(model.nodes.size(), 0);
     const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
     for (Index i = 0; none && i < nodes.size(); ++i)
@@ -63,11 +67,20 @@ class NodalLoadReader {
     if (follows ? !read_follower(card, load) : !read_direction(card, load.direction)) return;
     load.turns = card.dof > follower;
     for (const Index n : load.nodes)
-      if (load.turns && !turns_[static_cast<std::size_t>(n)])
-        return error(card, field,
-                     fmt::format("node {} does not turn: only corners of shells that deform feel moments",
-                                 model_.nodes[static_cast<std::size_t>(n)].id),
-                     "if it belongs to a rigid body, use *LOAD_RIGID_BODY with the part id of the body");
+      if (load.turns && of_bodies_[static_cast<std::size_t>(n)] && load.follows)
+        return error(
+            card, field,
+            fmt::format("node {} belongs to a rigid body, on which a moment that follows M1, M2, M3 is "
+                        "not supported",
+                        model_.nodes[static_cast<std::size_t>(n)].id),
+            "use DOF 5, 6, 7: a moment about x, y, z");
+      else if (load.turns && !turns_[static_cast<std::size_t>(n)] && !of_bodies_[static_cast<std::size_t>(n)])
+        return error(
+            card, field,
+            fmt::format("node {} does not turn: only corners of shells that deform, nodes of beams and "
+                        "of rigid bodies feel moments",
+                        model_.nodes[static_cast<std::size_t>(n)].id),
+            "give the moment as forces on two nodes");
       else if (!is_loaded_[static_cast<std::size_t>(n)])
         return error(card, field,
                      fmt::format("node {} is neither a particle nor a node of elements or bodies, on which "
@@ -134,7 +147,7 @@ class NodalLoadReader {
 
   bool read_direction(const LoadNodeCard& card, Vec& direction) {
     const int size = std::abs(card.dof);
-    const bool moment = card.dof >= 5 && card.dof <= 7 && has_rotations_;
+    const bool moment = card.dof >= 5 && card.dof <= 7 && (has_rotations_ || some_of_bodies_);
     if ((card.dof < 1 || card.dof > 3) && !moment) {
       error(card, "DOF",
             size >= 5 && size <= 8 ? fmt::format("a moment (DOF {}) is not supported", card.dof)
@@ -168,8 +181,8 @@ class NodalLoadReader {
   const World& world_;
   Diagnostics& diagnostics_;
   std::map<Id, Index> node_of_id_;
-  bool has_rotations_ = false;
-  std::vector<char> is_loaded_, turns_;  ///< of the model's nodes
+  bool has_rotations_ = false, some_of_bodies_ = false;
+  std::vector<char> is_loaded_, turns_, of_bodies_;  ///< of the model's nodes
   std::vector<NodalLoad> loads_;
 };
 

@@ -31,9 +31,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
  public:
   /// `damping`: of each node of the world [M/T]
   WaveDampers(const std::map<Index, Matrix>& damping, World& world)
-      : points_(points_of(world.nodes)),
-        driven_(points_.driven().find(*points_.set)),
-        at_(static_cast<std::size_t>(world.nodes.size()), -1) {
+      : points_(points_of(world.nodes)), at_(static_cast<std::size_t>(world.nodes.size()), -1) {
     for (const auto& [n, C] : damping) {
       at_[static_cast<std::size_t>(n)] = static_cast<Index>(nodes_.size());
       nodes_.push_back(n), damping_.push_back(C);
@@ -44,7 +42,6 @@ class WaveDampers : public Constraint, public EnergyTerm {
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
-    if (driven_) a.reads(*driven_);
   }
   void start(World&, const Clock& clock) override { half_ = 0.5 * clock.dt_old; }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -52,7 +49,6 @@ class WaveDampers : public Constraint, public EnergyTerm {
       if (at_[static_cast<std::size_t>(n)] < 0) continue;
       const auto k = static_cast<std::size_t>(at_[static_cast<std::size_t>(n)]);
       force_[k].setZero();
-      if (driven_ && (*driven_)[n] != 0) continue;
       const Matrix& C = damping_[k];
       const Vec v = points_.v->vec(n), f = points_.f->vec(n);
       const Matrix more = Matrix::Identity() + half_ / (*points_.m)[n] * C;
@@ -72,8 +68,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
 
  private:
   Points points_;
-  const Field<Index>* driven_;  ///< null: nothing is
-  std::vector<Index> at_;       ///< of each node of the world its position below; -1: none
+  std::vector<Index> at_;  ///< of each node of the world its position below; -1: none
   std::vector<Index> nodes_;
   std::vector<Matrix> damping_;
   std::vector<Vec> force_;  ///< of the dampers now [ML/T2]

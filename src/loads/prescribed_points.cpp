@@ -33,7 +33,7 @@ struct SensorGates {
 
 /// Gives driven points the velocity of the coming half step before they are kicked and moved, and takes
 /// the force along it away. What the drive does of work is external.
-class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceReporter {
+class PrescribedPoints : public Drive, public Impact, public EnergyTerm, public BoundaryForceReporter {
  public:
   PrescribedPoints(std::vector<PrescribedMotion> motions, SensorGates gates, std::vector<Group> groups,
                    Points points, Field<Index>& group, Field<Real>* work)
@@ -44,6 +44,8 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         group_(group),
         work_(work),
         axes_(points.turns || !points.follow ? nullptr : &shared_fields::driven_axes.add(*points.set)),
+        projector_(points.driven_projector().add(*points.set)),
+        change_(points.driven_change().add(*points.set)),
         around_(!points_.turns && std::any_of(motions_.begin(), motions_.end(),
                                               [](const PrescribedMotion& m) { return m.around >= 0; })) {}
   std::string name() const override { return "prescribed " + points_.name(); }
@@ -65,6 +67,23 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
         points_.f->add(i, -f.dot(d) * d);
       }
     }
+  }
+
+  /// For all that asks which directions are driven, and with what velocity, in the coming step.
+  void strike(World& world, const Clock& clock) override {
+    choose(clock);
+    for_each(loaded_points(points_, world), [&](Index i) {
+      Vec change = Vec::Zero();
+      Matrix along = Matrix::Zero();
+      for (const Drive* drive : drives_[static_cast<std::size_t>(group_[i])]) {
+        const Vec v = points_.v->vec(i);
+        change += (drive->velocity(v, place(i)) - v.dot(drive->direction)) * drive->direction;
+        along += drive->direction * drive->direction.transpose();
+      }
+      change_.set(i, change);
+      const Real parts[] = {along(0, 0), along(1, 1), along(2, 2), along(0, 1), along(1, 2), along(2, 0)};
+      for (int k = 0; k < 6; ++k) projector_.data(k)[i] = parts[k];
+    });
   }
 
   /// The force of the drive makes m dv = (f + drive) dt; its work is drive . (v + dv/2) dt.
@@ -156,10 +175,11 @@ class PrescribedPoints : public Drive, public EnergyTerm, public BoundaryForceRe
   Points points_;
   std::vector<PrescribedMotion> motions_;
   SensorGates gates_;
-  std::vector<Group> groups_;                      ///< the first one is empty
-  Field<Index>& group_;                            ///< of each point
-  Field<Real>* work_;                              ///< on each point so far; null: not needed
-  Field<Index>* axes_;                             ///< null: of rotations, or of particles
+  std::vector<Group> groups_;  ///< the first one is empty
+  Field<Index>& group_;        ///< of each point
+  Field<Real>* work_;          ///< on each point so far; null: not needed
+  Field<Index>* axes_;         ///< null: of rotations, or of particles
+  Field<Real>&projector_, &change_;
   std::vector<Index> axes_of_;                     ///< of each group, in this step
   bool around_;                                    ///< some go round an axis
   std::vector<Drive> all_;                         ///< of each motion

@@ -1,4 +1,6 @@
 // What rigid bodies and joints bring into a world.
+#include <map>
+
 #include "extension/builders.hpp"
 #include "extension/part_values.hpp"
 #include "loads/loads.hpp"
@@ -50,9 +52,34 @@ void drive_bodies(const Deck& deck, const Model& model, Diagnostics& diagnostics
   (bodies ? *bodies : none).follow(motions, deck, model, diagnostics);
 }
 
-void add_passes(const Model& model, World& world, LeftOut& left_out,
-                const std::shared_ptr<RigidBodies>& bodies, const PointLoads& loads, BodyPasses& passes) {
-  if (bodies) bodies->set_damping(loads.damping);
+/// Moments of *LOAD_NODE_POINT and _SET on nodes of bodies.
+void add_moments(const Model& model, const World& world, const WallBodies& walls, const PointLoads& loads,
+                 RigidBodies& bodies) {
+  std::map<Id, Index> node_of_id;
+  for (const NodalLoad& load : loads.nodal) {
+    if (!load.turns) continue;
+    for (Index n = 0; node_of_id.empty() && n < world.nodes.size(); ++n) node_of_id[world.nodes.id[n]] = n;
+    for (const Index n : load.nodes) {
+      const auto node = node_of_id.find(model.nodes[static_cast<std::size_t>(n)].id);
+      const Index body = node == node_of_id.end() ? -1 : walls.body(node->second);
+      if (body < 0) continue;
+      const auto k = static_cast<std::size_t>(body);
+      bodies.add_load(k, {.body = bodies.bodies()[k].part,
+                          .direction = load.direction,
+                          .turns = true,
+                          .curve = load.curve,
+                          .sf = load.sf});
+    }
+  }
+}
+
+void add_passes(const Model& model, World& world, Diagnostics& diagnostics, LeftOut& left_out,
+                const std::shared_ptr<RigidBodies>& bodies, const WallBodies& walls, const PointLoads& loads,
+                BodyPasses& passes) {
+  if (bodies) {
+    bodies->set_damping(loads.damping, model, diagnostics);
+    add_moments(model, world, walls, loads, *bodies);
+  }
   if (!bodies || !bodies->any_moves())
     return left_out.add("rigid bodies", bodies ? "all are held in every direction" : "no *MAT_RIGID");
   passes.move = true;

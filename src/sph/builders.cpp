@@ -9,6 +9,7 @@
 #include "loads/loads.hpp"
 #include "loads/point_motion.hpp"
 #include "sph/inlets/injection.hpp"
+#include "sph/materials/explosive.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "sph/materials/materials.hpp"
 #include "sph/options/subcycle.hpp"
@@ -151,7 +152,9 @@ void set_pressures(const Deck& deck, const Model& model, World& world, Diagnosti
   if (diagnostics.ok()) add_held_levels(injections, materials, flow, world);
   if (diagnostics.ok()) set_initial_pressures(deck, model, materials, world, diagnostics);
   if (diagnostics.ok()) set_inlet_pressures(injections, deck, model, materials, world, diagnostics);
-  if (diagnostics.ok()) add_equations_of_state(world, model, materials, settings);
+  if (!diagnostics.ok()) return;
+  add_burn(world, deck, model);
+  add_equations_of_state(world, model, materials, settings);
 }
 
 void add_passes(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,

@@ -24,6 +24,12 @@ struct Points {
   const SharedField<Index>& driven() const {
     return turns ? shared_fields::prescribed_rotation : shared_fields::prescribed_motion;
   }
+  const SharedField<Real>& driven_projector() const {
+    return turns ? shared_fields::driven_rotation_projector : shared_fields::driven_projector;
+  }
+  const SharedField<Real>& driven_change() const {
+    return turns ? shared_fields::driven_rotation_change : shared_fields::driven_change;
+  }
 };
 
 inline Points points_of(Particles& p) {

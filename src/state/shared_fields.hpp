@@ -30,6 +30,17 @@ inline const SharedField<Index> prescribed_motion{{.name = "prescribed_motion", 
 /// Nodes: axes along which prescribed motions drive them in this step, 1 x + 2 y + 4 z; oblique motions count
 /// along all axes of which they have a component.
 inline const SharedField<Index> driven_axes{{.name = "driven_axes", .dimension = "-"}};
+/// Points with a prescribed motion, for the coming step once its size is known: the projector on the
+/// directions along which motions act, xx yy zz xy yz zx, and the change of velocity that they cause [L/T].
+inline const SharedField<Real> driven_projector{
+    {.name = "driven_projector", .dimension = "-", .components = 6, .restart = false}};
+inline const SharedField<Real> driven_change{
+    {.name = "driven_change", .dimension = "L/T", .components = 3, .restart = false}};
+/// The same of rotations [1/T].
+inline const SharedField<Real> driven_rotation_projector{
+    {.name = "driven_rotation_projector", .dimension = "-", .components = 6, .restart = false}};
+inline const SharedField<Real> driven_rotation_change{
+    {.name = "driven_rotation_change", .dimension = "1/T", .components = 3, .restart = false}};
 /// Particles: acceleration towards a mirror that is not reversed behind it, as it should be; passes that add
 /// such a force record it here, except for gravity.
 inline const SharedField<Real> mirror_pull{{.name = "mirror_pull", .dimension = "L/T2", .restart = false}};

@@ -14,7 +14,7 @@ import pytest
 from courant.optional import MissingModule
 
 PROJECT = Path(__file__).resolve().parents[2]
-SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 7}  # pages with Python, and how many pieces of it this file runs
+SHOWN = {"docs/post.md": 2, "docs/scenes_in_python.md": 8}  # pages with Python, and how many pieces of it this file runs
 
 
 def pieces(page: str) -> list[str]:
@@ -71,6 +71,21 @@ def test_a_scene_from_a_bad_surface(tmp_path, monkeypatch, capfd):
     assert names["run"].verdict == "sound" and Path("house.png").stat().st_size > 5000
 
 
+def test_a_mesh_of_gmsh_and_a_surface_of_pyvista(tmp_path, monkeypatch):
+    """The page's dam break on a wall, coarser and for a short time."""
+    if "COURANT_EXECUTABLE" not in os.environ:
+        pytest.skip("COURANT_EXECUTABLE names no program")
+    gmsh = pytest.importorskip("gmsh", reason="gmsh is missing")
+    pytest.importorskip("pyvista", reason="pyvista is missing")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    try:
+        exec(pieces("docs/scenes_in_python.md")[2].replace("spacing=0.05, end=0.4", "spacing=0.1, end=0.002").replace("0.04)\ngmsh", "0.2)\ngmsh"), names)  # noqa: S102
+    finally:
+        gmsh.finalize()
+    assert names["run"].verdict == "sound"
+
+
 def test_a_drop_without_water(tmp_path, monkeypatch):
     """The page's drop test, with coarse shells, until the house has struck the plate."""
     if "COURANT_EXECUTABLE" not in os.environ:
@@ -81,7 +96,7 @@ def test_a_drop_without_water(tmp_path, monkeypatch):
 
     monkeypatch.chdir(tmp_path)
     stl(Path("house.stl"))
-    piece = pieces("docs/scenes_in_python.md")[2]
+    piece = pieces("docs/scenes_in_python.md")[3]
     names = {}
     exec(piece.replace("size=0.04", "size=0.1").replace("end=0.02", "end=0.007"), names)  # noqa: S102
     assert names["run"].verdict == "sound" and names["plate"]["displacement.z"].min() < -1e-3 and Path("drop.png").stat().st_size > 5000
@@ -165,7 +180,7 @@ def test_a_deck_is_changed(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("plate.k").write_text(PLATES)
     names = {"courant": courant}
-    exec(pieces("docs/scenes_in_python.md")[3].replace("until=0.1", "until=0.001, quiet=True"), names)  # noqa: S102
+    exec(pieces("docs/scenes_in_python.md")[4].replace("until=0.1", "until=0.001, quiet=True"), names)  # noqa: S102
     deck = names["deck"]
     assert deck["MAT_ELASTIC"]["E"] == 70e9 and deck.parts[2]["MID"] == 4 and deck.parameters["dx"] == 0.005
     written = courant.Deck("thicker/plate.k")
@@ -182,7 +197,7 @@ def test_steps_callbacks_sweeps_and_ctrl_c(tmp_path, monkeypatch, capsys):
     scene.water(low=(0, 0), high=(1.2, 0.4)).box(low=(0, 0), high=(2, 0.8))
     scene.body(box={"low": (1.4, 0.1), "high": (1.6, 0.3)}, density=500, title="house")
     names = {"courant": courant, "scene": scene}
-    steps, sweep, ctrl_c = pieces("docs/scenes_in_python.md")[4:]
+    steps, sweep, ctrl_c = pieces("docs/scenes_in_python.md")[5:]
     exec(steps, names)  # noqa: S102
     assert names["state"].t > 0 and courant.open("towed").states[-1].t == pytest.approx(0.05, rel=0.1)
     exec(sweep.replace("[20, 40, 80]", "[4, 8]"), names)  # noqa: S102

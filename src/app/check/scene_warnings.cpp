@@ -9,6 +9,7 @@
 
 #include "contact/cards.hpp"
 #include "model/mesh/named_parts.hpp"
+#include "output/summary.hpp"
 #include "rigid/switches/switch_cards.hpp"
 #include "sph/inlets/injection.hpp"
 
@@ -42,6 +43,7 @@ class SceneWarnings {
       if (members.size() < least_members) continue;
       spacing(k, members);
       neighbours(k, members);
+      compression(k, members);
       if (!flows_in(k)) masses(k, members);
     }
     plane();
@@ -137,7 +139,8 @@ class SceneWarnings {
 
   void walls() {
     const Segments& g = s_.world().segments;
-    for (const Index segment : s_.sph().walls.segments) met_.insert(g.part[segment]);
+    std::set<Index> supported;
+    for (const Index segment : s_.sph().walls.segments) supported.insert(g.part[segment]);
     std::vector<char> crosses(s_.model().parts.size(), 0), moves = crosses;
     const Real z = p_.x.vec(0)[2];
     for (Index k = 0; k < g.size(); ++k) {
@@ -151,11 +154,15 @@ class SceneWarnings {
     }
     for (std::size_t k = 0; k < crosses.size(); ++k) {
       if (!s_.model().parts[k].has_shell) continue;
-      const bool met = met_.count(static_cast<Index>(k)) > 0;
-      if (!met && !moves[k])  // what moves may do so for its own sake
-        warn_of_part(k, "no contact names these shells, so particles go through them",
+      const bool held_off = met_.contains(static_cast<Index>(k));
+      const bool met = held_off || supported.contains(static_cast<Index>(k));
+      if (!held_off && (met || !moves[k]))  // what moves may do so for its own sake
+        warn_of_part(k,
+                     met ? "no contact names these shells: *COURANT_WALL_SUPPORT completes sums there, and "
+                           "does not stop particles"
+                         : "no contact names these shells, so particles go through them",
                      "name the part as SURFB of a *CONTACT_AUTOMATIC_NODES_TO_SURFACE");
-      else if (met && s_.world().dim == 2 && !crosses[k])
+      if (met && s_.world().dim == 2 && !crosses[k])
         warn_of_part(
             k,
             fmt::format("none of the shells reaches through the plane of the particles, z = {:g}: in "
@@ -166,6 +173,23 @@ class SceneWarnings {
   }
 
   // --- particles
+
+  /// What the verdict would doubt at once: a sound speed too low for the pressure at the start.
+  void compression(std::size_t part, const std::vector<Index>& members) {
+    const Ranges& ranges = s_.guard().ranges();
+    if (part >= ranges.size() || ranges[part].stiffness_field.empty()) return;
+    const PartRange& range = ranges[part];
+    Real most = 0;
+    for (const Index i : members) most = std::max(most, p_.rho[i] / range.rho0);
+    if (most <= 1 + VerdictLimits().density_doubtful) return;
+    warn_of_part(part,
+                 fmt::format("the liquid begins compressed to {:.3g} times RO: its sound speed {:.4g} is too "
+                             "low for the pressure there",
+                             most, range.c0),
+                 fmt::format("raise {}: a sound speed of ten times the largest expected speed, sqrt(2 g H) "
+                             "for instance",
+                             range.stiffness_field));
+  }
 
   /// An inlet makes the masses itself.
   bool flows_in(std::size_t part) const {

@@ -173,12 +173,13 @@ Real width_of(const World& world, const ContactFace& f) {
 }  // namespace
 
 // The spring that a node will have which comes through a face within a step, no force: so that steps are
-// short enough for it by then. What touches at the start without a speed is expected at once: nothing else
-// may limit the first step of rigid bodies. The force of the first sample behind the surface pushes through
-// half of the step that led there, which would not be bounded else.
+// short enough for it by then. What is near at the start without a speed, or behind by rounding, is expected
+// at once: nothing else may limit the first step of rigid bodies, in which weight moves them unseen. The
+// force of the first sample behind the surface pushes through half of the step that led there, which would
+// not be bounded else.
 void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index i,
                          const Slots& slots) const {
-  constexpr Real touching = 1e-6;
+  constexpr Real touching = 1e-6, near = 1e-3;  // of the width of the face
   const Seen* first = nullptr;
   Real soonest = soft_dt_ > 0 ? soft_dt_ : unbounded, its_side = 1;
   for (const Seen& seen : b.seen) {
@@ -186,10 +187,11 @@ void NodeContact::expect(const World& world, const Clock& clock, Block& b, Index
     const ContactFace& f = face(seen.face);
     const Real side = f.two_sided && seen.d < lift(world, i, f, 1, seen.at.n) ? -1 : 1,
                gap = gap_at(world, i, f, side, side * seen.at.n, side * seen.d);
-    if (gap < 0) continue;
+    const Real apart = clock.dt_old == 0 ? std::abs(gap) / width_of(world, f) : unbounded;
+    if (gap < 0 && apart > touching) continue;
     const Vec v = world.nodes.v.vec(node(i).node) - velocity_of_face(world, f, seen.at.N);
     const Real closing = -side * seen.at.n.dot(v);
-    const bool rests = clock.dt_old == 0 && closing >= 0 && gap <= touching * width_of(world, f);
+    const bool rests = closing >= 0 && apart <= (closing > 0 ? touching : near);
     if (!rests && !(closing > 0 && gap < closing * soonest)) continue;
     if (!seen.sure && !is_over(world, i, seen.face, seen.at)) continue;
     soonest = rests ? 0 : gap / closing, first = &seen, its_side = side;

@@ -98,6 +98,9 @@ class TiedBuilder {
     if (!find(c, ties, false, sticks ? &later : nullptr) || (ties.empty() && !sticks)) return;
     if (!finder_.are_stiff(c, finder_.faces(c, ContactSide::b, false), false)) return;
     if (softens(c)) warn_of_soft(c, ties);
+    CohesiveLaw cohesive;
+    const auto fault = [&](auto at, std::string what, auto hint) { error(c, at, what, hint); };
+    if (is_cohesive(c) && !read_cohesive(c, slsfac_, ties, cohesive, fault)) return;
     world_.counters["tied_nodes"] += static_cast<std::int64_t>(ties.size());
     Id id = c.cid;  // which contact itself has
     while (taken_.contains(id)) ++id;
@@ -107,6 +110,7 @@ class TiedBuilder {
         .title = (c.title.empty() ? fmt::format("contact {}", c.cid) : c.title) + " until it breaks",
         .strength = {by_option && c.option == 1 ? 0 : c.nfls, c.sfls, c.nen, c.mes, kind != Tiebreak::force,
                      softens(c) ? c.param : 0},
+        .cohesive = cohesive,
         .death = death_of(c)};
     if (!sticks) return hold_by_springs(std::move(law), std::move(ties));
     for (Tie& tie : ties) tie.k *= slsfac_;
@@ -148,17 +152,19 @@ class TiedBuilder {
   bool check_tiebreak(const ContactCard& c) {
     const int errors = diagnostics_.errors();
     const bool by_option = kind_of(c).tiebreak == Tiebreak::by_option;
-    if (by_option && (c.option < 1 || (c.option > 3 && !softens(c))))
+    if (by_option && (c.option < 1 || (c.option > 3 && !softens(c) && !is_cohesive(c))))
       error(c, "OPTION", fmt::format("{} is not supported", c.option),
-            "1 holds nodes that touch, at the start or later, for ever, 3 until the stress is reached; 2 "
-            "and, with "
-            "the opening PARAM behind that, 6 and 8 those that touch at the start");
+            "1 holds nodes that touch, at the start or later, for ever, 3 until the stress is reached; 2, 6, "
+            "8, 9 and 11 hold those that touch at the start");
     for (const auto& [field, value] : {std::pair("NFLS", c.nfls), std::pair("SFLS", c.sfls)})
       if (by_option && c.option != 1 && !(value > 0))
         error(c, field, fmt::format("expected a number > 0, got '{:g}'", value),
               "only OPTION 1 holds for ever");
     // with OPTION 2 and 4: no offset by thickness; other values, and those of OPTION 1 and 3, change nothing
-    if (softens(c) ? !(c.param > 0) : by_option ? c.option == 2 && c.param == 1 : c.param != 0)
+    if (is_cohesive(c) ? false
+        : softens(c)   ? !(c.param > 0)
+        : by_option    ? c.option == 2 && c.param == 1
+                       : c.param != 0)
       error(c, "PARAM", fmt::format("expected {}, got '{:g}'", softens(c) ? "an opening > 0" : "0", c.param),
             "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
     if (c.bt > 0) error(c, "BT", "what holds from the start has no birth", "leave it blank");

@@ -76,6 +76,10 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     }
     if (law_.strength.breaks()) world.counters.try_emplace("broken_ties", 0);
     if (law_.strength.opening > 0) onset_.assign(ties_.size(), 0), widest_ = onset_;
+    if (law_.cohesive.holds()) {
+      world.counters.try_emplace("broken_ties", 0);
+      damage_.assign(ties_.size(), 0), whole_ = damage_;
+    }
   }
   std::string name() const override { return fmt::format("tied contact {}", law_.id); }
   const FieldSet& over(const World& world) const override { return world.nodes.fields; }
@@ -134,6 +138,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     archive("broken", broken_), archive("over", over_);
     if (spin_) archive("turn", turn_);
     if (law_.strength.opening > 0) archive("onset", onset_), archive("widest", widest_);
+    if (law_.cohesive.holds()) archive("damage", damage_), archive("whole", whole_);
     archive("lost", lost_);
     archive("lost_so_far", lost_so_far_);
   }
@@ -185,6 +190,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     const Vec away = x.vec(tie.node) - place_of(tie.at, x);
     const bool face_is_gone = eroded_ && (*eroded_)[tie.segment] != 0;
     if (!onset_.empty() && onset_[t] > 0 && !face_is_gone) return soften(t, away, x);
+    if (law_.cohesive.holds() && !face_is_gone) return open(t, away, x);
     now.force = -tie.k * away;
     now.stored = 0.5 * tie.k * away.squaredNorm();
     now.on = on_corners(tie.at, x, -now.force);
@@ -215,6 +221,29 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     now.stored = 0.5 * k * c * c;
     now.on = on_corners(ties_[t].at, x, -now.force);
   }
+  /// A tie of the cohesive law. What it stores is (1 - D) w, w of the whole joint; where D grows, w dD is
+  /// lost.
+  void open(std::size_t t, const Vec& away, const Field<Real>& x) {
+    const CohesiveLaw& law = law_.cohesive;
+    const Tie& tie = ties_[t];
+    const Vec n = tie.side * normal_of(tie.at, x);
+    const Real wide = away.dot(n), opens = std::max(wide, Real(0)), closes = wide - opens;
+    const Vec across = away - wide * n;
+    const Real before = damage_[t], now_at = std::max(before, law.damage(wide, across.norm()));
+    const Real kn = tie.area * law.normal_stiffness, ks = tie.area * law.shear_stiffness;
+    const Real whole = 0.5 * (kn * opens * opens + ks * across.squaredNorm());
+    SpringState& now = now_[t];
+    now.lost = 0.5 * (whole + whole_[t]) * (now_at - before);
+    damage_[t] = now_at, whole_[t] = whole;
+    if (now_at >= 1) {
+      now.stored = 0;
+      now.breaks = true;
+      return;
+    }
+    now.force = -(1 - now_at) * (kn * opens * n + ks * across) - kn * closes * n;
+    now.stored = (1 - now_at) * whole + 0.5 * kn * closes * closes;
+    now.on = on_corners(tie.at, x, -now.force);
+  }
   /// Whether the stress breaks the spring.
   bool is_beyond(const Tie& tie, const Field<Real>& x, const Vec& force) const {
     if (!law_.strength.breaks()) return false;
@@ -230,6 +259,7 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
 
   std::vector<Index> broken_;
   std::vector<Real> onset_, widest_;  ///< distances where damage began and has come to, 0: not yet [L]
+  std::vector<Real> damage_, whole_;  ///< of the cohesive law [-], [ML2/T2]
   std::vector<Real> turn_;            ///< x, y, z of each tie [-]
   std::vector<SpringState> now_;
   const Field<Real>* spin_ = nullptr;  ///< of nodes; null: no rotation is held

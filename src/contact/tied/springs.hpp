@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/tied/cohesive.hpp"
 #include "contact/tied/ties.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
@@ -28,7 +29,8 @@ struct TiedSpringsLaw {
   Id id = 0;
   std::string title;
   TieStrength strength{};
-  Real death = 1e20;  ///< from then on none holds [T]
+  CohesiveLaw cohesive{};  ///< where it holds, instead of Tie::k and `strength`
+  Real death = 1e20;       ///< from then on none holds [T]
 };
 
 /// What else may be tied, each node once, where it comes to touch.

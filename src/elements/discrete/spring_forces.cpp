@@ -62,7 +62,7 @@ class SpringForces : public Material, public EnergyTerm, public PartReporter, pu
         motion.stretch = stretch_[e] + motion.rate * clock.dt_old;
       else
         motion.stretch = (is_free(e) ? length : d.dot(along)) - start_[e];
-      motion.change = motion.stretch - stretch_[e];
+      motion.change = motion.stretch - stretch_[e], motion.dt = clock.dt_old;
       const SpringAnswer answer = scaled(motion, e);
       energy_[e] += 0.5 * (force_[e] + answer.force) * motion.change;
       stretch_[e] = motion.stretch, force_[e] = answer.force;

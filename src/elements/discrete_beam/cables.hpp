@@ -38,6 +38,8 @@ struct CablePart {
   CableLaw law;
   std::vector<const ModelBeam*> beams{};
   std::vector<Real> area{}, rest{}, mass{};  ///< [L2], length without load [L], [M]
+  /// Of a rod without Poisson's ratio that is as stiff as the first cable, which has an area. [M/LT2]
+  Real bulk_modulus() const { return law.steepest(area[0], rest[0]) * rest[0] / area[0] / 3; }
 };
 
 /// Parts of *SECTION_BEAM with ELFORM 6. Refuses other materials, and cables without mass, area or length.

@@ -21,6 +21,7 @@
 #include "elements/shell/shell_faults.hpp"
 #include "elements/shell/shells.hpp"
 #include "elements/stiffness_damping.hpp"
+#include "laws/most_history.hpp"
 #include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
@@ -202,8 +203,6 @@ class ShellForces : public Material, public TimeLimit, public EnergyTerm, public
   }
 
  private:
-  static constexpr std::size_t most_history = 16;
-
   int layers() const { return state_.points / places_; }
   ShellLoops::StableStep advance(const ShellMesh& mesh, const ShellControl& control, Real dt, Index begin,
                                  Index end, ShellScratch& scratch, const Clock* failing = nullptr) const {
@@ -477,9 +476,12 @@ void add_shell_passes(const Model& model, const std::vector<ShellPart>& parts,
     const auto named = static_cast<std::size_t>(group->part);
     const ShellPart& part = parts[named].of(group->layup);
     for (std::size_t k = 0; k < part.zeta.size(); ++k) {
-      int numbers = 0;
-      for (const HistoryVariable& h : part.law_of(k).history()) numbers += h.components;
-      if (numbers > 16) throw std::logic_error("a law with more than 16 history numbers");
+      std::size_t numbers = 0;
+      for (const HistoryVariable& h : part.law_of(k).history())
+        numbers += static_cast<std::size_t>(h.components);
+      if (numbers > most_history)
+        throw std::logic_error(
+            fmt::format("a law with {} history numbers, more than {}", numbers, most_history));
     }
     if (options.sections) group->keep_corner_forces(), group->keep_corner_moments();
     world.passes.add(std::make_shared<ShellForces>(part, *group, model.parts[named].id, model.tssfac, options,

@@ -41,7 +41,7 @@ class SolidLaws {
                  fmt::format("this material in solids, as those of part {}, is not supported: its directions "
                              "are those of shells",
                              part.id),
-                 "solids take isotropic materials and *MAT_HONEYCOMB");
+                 "solids take isotropic materials, *MAT_HONEYCOMB and *MAT_ORTHOTROPIC_ELASTIC");
     if (law->second->deviator_only()) {
       const auto eos = eos_.find(deck, part, law->second->ro, "solids", diagnostics);
       if (!eos) return;

@@ -28,7 +28,7 @@ void FullPoints::declare(Accesses& a) const {
 }
 
 PointBlock FullPoints::at_point(int p, const ElementBlock& block, PointScratch& scratch, SolidState& state,
-                                std::array<Real*, 16>& history) const {
+                                std::array<Real*, most_history>& history) const {
   PointBlock at;
   at.count = block.count, at.dt = block.dt;
   for (int k = 0; k < 6; ++k) {
@@ -62,7 +62,7 @@ StableStep FullPoints::advance(const BlockOfSolids& of, const ElementBlock& bloc
   loops_.begin(block, false, scratch);
   SolidState state = of.state;
   state.tensors = static_cast<int>(tensors_.size());
-  std::array<Real*, 16> history{};
+  std::array<Real*, most_history> history{};
   for (int p = 0; p < points_; ++p) {
     PointBlock at = at_point(p, block, scratch, state, history);
     loops_.strain(block, p, of.control, state, scratch);

@@ -8,6 +8,7 @@
 #include "elements/point_strains.hpp"
 #include "elements/solid/formulation.hpp"
 #include "elements/solid/solid_pressure.hpp"
+#include "laws/most_history.hpp"
 #include "laws/strength/strength.hpp"
 #include "state/entities.hpp"
 
@@ -72,7 +73,7 @@ class FullPoints {
  private:
   /// What the law gets at point p, whose stress and tensors `state` then has. `history`: room.
   PointBlock at_point(int p, const ElementBlock& block, PointScratch& scratch, SolidState& state,
-                      std::array<Real*, 16>& history) const;
+                      std::array<Real*, most_history>& history) const;
   const ElementGroup& group_;
   int points_;
   PointLoops loops_;

@@ -38,7 +38,7 @@ StableStep FullPoints::advance(const BlockOfSolids& of, Fluid& fluid, const Elem
                   own);
   SolidState state = of.state;
   state.tensors = static_cast<int>(tensors_.size());
-  std::array<Real*, 16> history{};
+  std::array<Real*, most_history> history{};
   PointRates kept;
   for (int point = 0; point < points_; ++point) {
     PointBlock at = at_point(point, block, scratch, state, history);

@@ -15,7 +15,7 @@ namespace courant {
 
 namespace {
 
-constexpr int assumed_strain = 6, of_shells = 8;
+constexpr int assumed_strain = 6, total_strain = 7, of_shells = 8, enhanced_strain = 9;
 /// LS-DYNA's advice: above it hourglass forces may make the solids unstable. Assumed strains are those of the
 /// material with 1.
 constexpr Real stable_qm = 0.15, stable_assumed = 1;
@@ -67,8 +67,15 @@ class Reader {
       out.ihq = ihq;
       return;
     }
-    if (!has_modes(part) || !told_.insert({&card, field}).second) return;
-    if (ihq == of_shells)
+    if (!has_modes(part)) return;
+    const bool kind_of_6 = ihq == total_strain || ihq == enhanced_strain;
+    if (kind_of_6) out.ihq = assumed_strain;
+    if (!told_.insert({&card, field}).second) return;
+    if (kind_of_6)
+      deck_.warning(diagnostics_, card, field,
+                    fmt::format("{} is a variant of 6: the solids of part {} take 6", ihq, part.id),
+                    "6 says the same without this warning");
+    else if (ihq == of_shells)
       deck_.warning(diagnostics_, card, field,
                     fmt::format("8 is of shells: the solids of part {} take 1 (viscous)", part.id),
                     "give their part a *HOURGLASS of its own");
@@ -76,7 +83,8 @@ class Reader {
       deck_.refuse(
           diagnostics_, card, field,
           fmt::format("'{}' is not supported for solids, as those of part {}", ihq, part.id),
-          "supported values: 0 to 6; 1 to 3 are viscous, 4 and 5 a stiffness, 6 has assumed strains");
+          "supported values: 0 to 6; 1 to 3 are viscous, 4 and 5 a stiffness, 6 has assumed strains; 7 and 9 "
+          "become 6");
   }
 
   /// Whether its solids have modes without a strain at their points.

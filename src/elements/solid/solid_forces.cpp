@@ -18,6 +18,7 @@
 #include "elements/solid/solid_reports.hpp"
 #include "elements/solid/solids.hpp"
 #include "elements/stiffness_damping.hpp"
+#include "laws/most_history.hpp"
 #include "state/reports.hpp"
 
 namespace courant {
@@ -166,7 +167,6 @@ class SolidForces : public Material, public TimeLimit, public SolidReports, publ
   }
 
  private:
-  static constexpr std::size_t most_history = 16;
   static constexpr Real small_strain = 1e-7;  ///< within which all is linear
 
   /// What a block of elements moves by, and answers with.
@@ -375,8 +375,10 @@ class SolidForces : public Material, public TimeLimit, public SolidReports, publ
   std::vector<Real> start_state(const ReferenceGeometry* reference, World& world) {
     int numbers = 0, tensors = 0;
     for (const HistoryVariable& h : law_->history()) numbers += h.components, tensors += h.is_tensor();
-    if (numbers > static_cast<int>(most_history) || tensors > SolidState::most_tensors)
-      throw std::logic_error("a law with more than 16 history numbers, or more than 2 tensors");
+    constexpr int most_of_law = SolidState::most_tensors - 1;  // one is that of output
+    if (numbers > static_cast<int>(most_history) || tensors > most_of_law)
+      throw std::logic_error(fmt::format("a law with {} history numbers, {} tensors: more than {}, {}",
+                                         numbers, tensors, most_history, most_of_law));
     // volumes by the loops themselves: what they give for V0 = 1
     const Index n = group_.size();
     std::vector<Real> wave_time(static_cast<std::size_t>(n));

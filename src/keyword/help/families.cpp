@@ -409,10 +409,6 @@ Refusal Families::refusal(const std::string& name) const {
     return {"", std::move(hint)};
   const bool longer_family = family && std::string(family->prefix).size() > base.size();
   if (!base.empty() && base.size() >= law_length && !longer_family) return option(name, base);
-  if (law && std::string(law->name) == "HIGH_EXPLOSIVE_BURN")
-    return {"burning explosives",
-            "where all has burnt at the start, *MAT_NULL with *EOS_JWL and its E0 serves; the way of the "
-            "detonation through the charge is not computed"};
   if (law) {
     // by the other one of its two names
     const bool by_number = name.compare(4, std::string(law->number).size(), law->number) == 0;

@@ -72,6 +72,35 @@ struct NonlinearViscous : SpringLaw {
   }
 };
 
+/// Force KI times stretch, and beside it a spring of stiffness K0 - KI whose force decays with BETA. State:
+/// the force of that.
+struct Maxwell : SpringLaw {
+  Real short_time, long_time, decay;
+  Maxwell(Real k0, Real ki, Real beta) : short_time(k0), long_time(ki), decay(beta) {}
+  SpringAnswer answer(const SpringMotion& m, Real* state) const override {
+    const Real x = decay * m.dt, mean = x > 0 ? -std::expm1(-x) / x : 1;  // of exp(-BETA t) over the step
+    state[0] = std::exp(-x) * state[0] + (short_time - long_time) * mean * m.change;
+    return {long_time * m.stretch + state[0], std::max(short_time, long_time), 0};
+  }
+};
+
+/// A spring that holds in compression (side -1) or tension (1) alone: along the curve where it yields, along
+/// a straight line where it unloads. State: the stretch at which the line comes to zero.
+struct Inelastic : SpringLaw {
+  StraightPieces force;
+  Real unload, side;
+  Inelastic(const Curve& f, Real ku, Real of) : force(f.abscissa, f.ordinate), side(of) {
+    const Real steepest = force.steepest(f.abscissa.front(), f.abscissa.back());
+    unload = std::max(ku, steepest);
+  }
+  SpringAnswer answer(const SpringMotion& m, Real* state) const override {
+    const Real c = side * m.stretch, most = std::max(force(c), Real(0));
+    Real f = std::max(unload * (c - state[0]), Real(0));
+    if (f > most) f = most, state[0] = c - f / unload;
+    return {side * f, unload, 0};
+  }
+};
+
 /// Where the cards of materials find their curves.
 struct Reader {
   const Deck& deck;
@@ -124,11 +153,37 @@ struct MatDamperNonlinearViscous : MatDamperNonlinearViscousFields {
   }
 };
 
+struct MatSpringMaxwell : MatSpringMaxwellFields {
+  std::shared_ptr<SpringLaw> law(const Reader& reader) const {
+    if (tc == 0 || tc >= never) return std::make_shared<Maxwell>(k0, ki, beta);
+    reader.deck.error(reader.diagnostics, *this, "TC",
+                      fmt::format("'{:g}' (a constant force from then on) is not supported", tc),
+                      "leave the field blank");
+    return nullptr;
+  }
+  static constexpr Real never = 1e20;
+};
+struct MatSpringInelastic : MatSpringInelasticFields {
+  std::shared_ptr<SpringLaw> law(const Reader& reader) const {
+    const Curve* force = reader.curve(*this, "LCFD", lcfd);
+    if (!force) return nullptr;
+    if (!(force->abscissa.front() >= 0) || !(force->ordinate.back() > 0)) {
+      reader.deck.error(reader.diagnostics, *this, "LCFD",
+                        fmt::format("curve {} is not of positive stretches and forces", lcfd),
+                        "give magnitudes from 0 on: CTF states whether they are of compression or tension");
+      return nullptr;
+    }
+    return std::make_shared<Inelastic>(*force, ku, ctf == -1 ? 1 : -1);
+  }
+};
+
 const RegisterKeyword<MatSpringElastic> s01{mat_spring_elastic_table()};
 const RegisterKeyword<MatDamperViscous> s02{mat_damper_viscous_table()};
 const RegisterKeyword<MatSpringElastoplastic> s03{mat_spring_elastoplastic_table()};
 const RegisterKeyword<MatSpringNonlinearElastic> s04{mat_spring_nonlinear_elastic_table()};
 const RegisterKeyword<MatDamperNonlinearViscous> s05{mat_damper_nonlinear_viscous_table()};
+const RegisterKeyword<MatSpringMaxwell> s07{mat_spring_maxwell_table()};
+const RegisterKeyword<MatSpringInelastic> s08{mat_spring_inelastic_table()};
 
 template <class Card>
 void add_laws(const Reader& reader, std::map<Id, std::shared_ptr<SpringLaw>>& laws) {
@@ -146,12 +201,15 @@ std::map<Id, std::shared_ptr<SpringLaw>> find_spring_laws(const Deck& deck, cons
   add_laws<MatSpringElastoplastic>(reader, laws);
   add_laws<MatSpringNonlinearElastic>(reader, laws);
   add_laws<MatDamperNonlinearViscous>(reader, laws);
+  add_laws<MatSpringMaxwell>(reader, laws);
+  add_laws<MatSpringInelastic>(reader, laws);
   return laws;
 }
 
 const char* spring_keywords() {
   return "*MAT_SPRING_ELASTIC, *MAT_DAMPER_VISCOUS, *MAT_SPRING_ELASTOPLASTIC, "
-         "*MAT_SPRING_NONLINEAR_ELASTIC, *MAT_DAMPER_NONLINEAR_VISCOUS";
+         "*MAT_SPRING_NONLINEAR_ELASTIC, *MAT_DAMPER_NONLINEAR_VISCOUS, *MAT_SPRING_MAXWELL, "
+         "*MAT_SPRING_INELASTIC";
 }
 
 }  // namespace courant

@@ -12,6 +12,7 @@ struct SpringMotion {
   Real stretch = 0;  ///< > 0: longer than at rest [L]
   Real rate = 0;     ///< of the last half step [L/T]
   Real change = 0;   ///< of the stretch, over the last step [L]
+  Real dt = 0;       ///< of the last step [T]
 };
 
 /// Its results; of torsional ones forces are moments [ML2/T2].
@@ -29,7 +30,8 @@ class SpringLaw {
 };
 
 /// By the id of the material: *MAT_SPRING_ELASTIC, *MAT_DAMPER_VISCOUS, *MAT_SPRING_ELASTOPLASTIC,
-/// *MAT_SPRING_NONLINEAR_ELASTIC, *MAT_DAMPER_NONLINEAR_VISCOUS. Curves that are missing, or jump, are
+/// *MAT_SPRING_NONLINEAR_ELASTIC, *MAT_DAMPER_NONLINEAR_VISCOUS, *MAT_SPRING_MAXWELL, *MAT_SPRING_INELASTIC.
+/// Curves that are missing, or jump, are
 /// errors.
 std::map<Id, std::shared_ptr<SpringLaw>> find_spring_laws(const Deck& deck, const Model& model,
                                                           Diagnostics& diagnostics);

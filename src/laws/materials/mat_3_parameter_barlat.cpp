@@ -1,4 +1,5 @@
-// *MAT_036 and *MAT_122: metal sheets that yield differently along and across the direction of rolling.
+// *MAT_036 and *MAT_122: metal sheets that yield differently along and across the direction of rolling;
+// *MAT_037: alike in all directions of their plane.
 #include <fmt/format.h>
 
 #include "keyword/common_rules.hpp"
@@ -40,6 +41,26 @@ struct MatHill : BarlatCard {
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
     check_hardening(deck, model, diagnostics);
     check_ratios(deck, diagnostics);
+  }
+};
+
+struct MatOneRatio : BarlatCard {
+  Real sigy = 0, etan = 0;
+  std::shared_ptr<StrengthLaw> law(const Model& model) const {
+    SheetHardening hardening{.yield = sigy, .slope = etan};
+    if (const auto found = model.curves.find(lcid); lcid != 0 && found != model.curves.end())
+      hardening.curve = IndexedPieces(found->second.abscissa, found->second.ordinate);
+    return make_sheet({ro, E, pr}, BarlatSurface::of_ratios(r00, r00, r00, 2).sheet(), {},
+                      std::move(hardening));
+  }
+  void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+    expect(deck, diagnostics, pr < 0.5, "PR", "a number < 0.5", pr,
+           "a material that keeps its volume has no finite bulk modulus");
+    if (lcid != 0)
+      check_sheet_curve(deck, model, *this, "HLCID", lcid,
+                        "a *DEFINE_CURVE of yield stress over effective plastic strain", diagnostics);
+    else
+      expect(deck, diagnostics, sigy > 0, "SIGY", "a number > 0", sigy, "or give the curve HLCID");
   }
 };
 
@@ -135,6 +156,41 @@ const RegisterStrength<Barlat> mat_barlat{
                       {"LCSH", &Barlat::lcsh, "-", "of HR 7", of_curve(no_effect)}},
            .optional = true}},
      .convert = convert_hardening<Barlat>}};
+
+using OneRatio = MatOneRatio;
+// Without P1 of HR 1, which is a tangent modulus, but with 5/8, which that makes of it.
+const RegisterStrength<OneRatio> mat_one_ratio{
+    "q^2 = s_a^2 + s_b^2 - 2 R/(1 + R) s_a s_b + 2 (1 + 2 R)/(1 + R) s_ab^2 <= sigma_y(e)^2; plastic strain "
+    "along its normal; shear across the sheet is elastic",
+    "Hill 1948",
+    {{"1,2.0,2.5,0.25,1.0,0.625,1.0\n", both_alike, {}, stretched, {0}, {48.0 / 55}}},
+    {.names = {"MAT_TRANSVERSELY_ANISOTROPIC_ELASTIC_PLASTIC", "MAT_037"},
+     .purpose =
+         "metal sheets that yield alike in all directions of their plane and otherwise across it, by the "
+         "surface of Hill",
+     .id_space = IdSpace::material,
+     .title_option = true,
+     .title = &OneRatio::title,
+     .cards = {
+         {.fields = {{"MID", &OneRatio::mid, "-", "id that *PART refers to", rules::required_id},
+                     {"RO", &OneRatio::ro, "M/L3", "density", rules::required_positive},
+                     {"E", &OneRatio::E, "M/LT2", "Young's modulus", rules::required_positive},
+                     {"PR", &OneRatio::pr, "-", "Poisson ratio, below 0.5", {.check = Check::not_negative}},
+                     {"SIGY",
+                      &OneRatio::sigy,
+                      "M/LT2",
+                      "yield stress, where HLCID is 0",
+                      {.check = Check::not_negative}},
+                     {"ETAN",
+                      &OneRatio::etan,
+                      "M/LT2",
+                      "slope of the yield stress over plastic strain",
+                      {.check = Check::not_negative}},
+                     {"R", &OneRatio::r00, "-",
+                      "ratio of the plastic strain across a tension to that through the thickness",
+                      rules::required_positive},
+                     {"HLCID", &OneRatio::lcid, "-",
+                      "yield stress over plastic strain, instead of SIGY and ETAN", sheet_hardening}}}}}};
 
 using Hill = MatHill;
 const RegisterStrength<Hill> mat_hill{

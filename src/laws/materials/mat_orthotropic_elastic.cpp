@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Eigenvalues>
 
 #include "keyword/common_rules.hpp"
 #include "laws/strength/material_axes.hpp"
@@ -25,14 +26,32 @@ struct MatOrthotropicElastic : DirectionsCard {
     return S;
   }
   std::shared_ptr<StrengthLaw> law(const Model& model) const;
+  /// Of parts with this material: which elements they have.
+  bool any_part(const Model& model, bool ModelPart::*has) const {
+    return std::any_of(model.parts.begin(), model.parts.end(),
+                       [&](const ModelPart& part) { return part.mid == mid && part.*has; });
+  }
   void check(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
-    check_axes(deck, model, diagnostics);
+    if (any_part(model, &ModelPart::has_solid))
+      check_in_solids(deck, model, diagnostics);
+    else
+      check_axes(deck, model, diagnostics);
     const Matrix S = compliance();
     const bool plane = S(0, 0) * S(1, 1) > S(0, 1) * S(0, 1);
     if (!plane || !(S.determinant() > 0))
       deck.error(diagnostics, *this, plane ? "PRCA" : "PRBA",
                  "the material would give energy away: its stiffness is not positive definite",
                  "PRBA^2 < EB/EA, PRCA^2 < EC/EA, PRCB^2 < EC/EB");
+  }
+  void check_in_solids(const Deck& deck, const Model& model, Diagnostics& diagnostics) const {
+    check_axes_in_solids(deck, model, diagnostics);
+    if (any_part(model, &ModelPart::has_shell))
+      deck.error(diagnostics, *this, "MID",
+                 "shells and solids with one material of directions are not supported",
+                 "give the solids a material of their own");
+    if (beta != 0)
+      deck.error(diagnostics, *this, "BETA", "an angle in solids is not supported",
+                 "turn A and D, or V, instead");
   }
 };
 
@@ -71,6 +90,10 @@ class Orthotropic : public StrengthLaw {
     finish(block);
   }
 
+ protected:
+  const Matrix& stiffness() const { return C_; }
+  Real shear(std::size_t k) const { return shear_[k]; }
+
  private:
   void finish(const PointBlock& block) const {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -88,7 +111,43 @@ class Orthotropic : public StrengthLaw {
   std::array<Real, 3> shear_;  ///< ab, bc, ca
 };
 
+/// The same in solids, by directions that turn with the body.
+class OrthotropicInSolids : public Orthotropic {
+ public:
+  using Orthotropic::Orthotropic;
+  bool in_sheets() const override { return false; }
+  std::vector<HistoryVariable> history() const override { return {{material_directions, "-", 6}}; }
+  void update(const PointBlock& block) const override {
+    constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+    for (Index i = 0; i < block.count; ++i) {
+      std::array<Real, 6> tensor;
+      Matrix D;
+      for (std::size_t k = 0; k < 6; ++k) {
+        tensor[k] = block.history[k][i];
+        D(row[k], column[k]) = D(column[k], row[k]) = block.dt * block.rate[k][i];
+      }
+      const Matrix Q = directions_of_tensor(tensor), d = Q.transpose() * D * Q;
+      Matrix ds = Matrix::Zero();
+      ds.diagonal() = stiffness() * d.diagonal();
+      for (std::size_t k = 3; k < 6; ++k)
+        ds(row[k], column[k]) = ds(column[k], row[k]) = 2 * shear(k - 3) * d(row[k], column[k]);
+      ds = Q * ds * Q.transpose();
+      for (std::size_t k = 0; k < 6; ++k) block.stress[k][i] += ds(row[k], column[k]);
+    }
+    keep_stiffness(block, fastest());
+  }
+
+ private:
+  /// A bound of waves in any direction: the largest stiffness of all strains. [L/T]
+  Real fastest() const {
+    const Real normal = Eigen::SelfAdjointEigenSolver<Matrix>(stiffness()).eigenvalues()[2];
+    return std::sqrt(std::max({normal, 2 * shear(0), 2 * shear(1), 2 * shear(2)}) / ro);
+  }
+};
+
 std::shared_ptr<StrengthLaw> MatOrthotropicElastic::law(const Model& model) const {
+  if (any_part(model, &ModelPart::has_solid))
+    return std::make_shared<OrthotropicInSolids>(*this, axes(model, 0));
   return std::make_shared<Orthotropic>(*this, axes(model, beta));
 }
 
@@ -107,7 +166,7 @@ const RegisterStrength<OE> mat_orthotropic_elastic{
       {1 + 1.6, 2 + 0.4, 3 + 0.5, 4 + 0.2, 5 + 0.8, 6 + 1.8}},
      {"1,2.0,4.0,1.0,1.0,0.25\n1.0,2.0,3.0\n\n\n", {0, 0.3, 0, 0, 0, 0}, {}, {0.4, 0.4, 0, 0, 0, 0}}},
     {.names = {"MAT_ORTHOTROPIC_ELASTIC", "MAT_002"},
-     .purpose = "elasticity of shells that differs along two directions in them, as of plies",
+     .purpose = "elasticity that differs along the directions of the material, as of plies, wood and bone",
      .id_space = IdSpace::material,
      .title_option = true,
      .title = &OE::title,
@@ -116,22 +175,32 @@ const RegisterStrength<OE> mat_orthotropic_elastic{
                      {"RO", &OE::ro, "M/L3", "density", rules::required_positive},
                      {"EA", &OE::ea, "M/LT2", "Young's modulus along a", rules::required_positive},
                      {"EB", &OE::eb, "M/LT2", "along b", rules::required_positive},
-                     {"EC", &OE::ec, "M/LT2", "along c, through the thickness", rules::required_positive},
+                     {"EC", &OE::ec, "M/LT2", "along c, in shells through the thickness",
+                      rules::required_positive},
                      {"PRBA", &OE::prba, "-", "strain along a over that along b of a stress along b"},
                      {"PRCA", &OE::prca, "-", "the same of a and c"},
                      {"PRCB", &OE::prcb, "-", "the same of b and c"}}},
-         {.fields = {{"GAB", &OE::gab, "M/LT2", "shear modulus in the plane", rules::required_positive},
-                     {"GBC", &OE::gbc, "M/LT2", "across it along b", rules::required_positive},
-                     {"GCA", &OE::gca, "M/LT2", "across it along a", rules::required_positive},
-                     {"AOPT", &OE::aopt, "-", aopt_meaning},
-                     {"G", &OE::g, "M/LT2", "damping that does not depend on the frequency", unsupported},
-                     {"SIGF", &OE::sigf, "M/LT2", "limit of that damping", no_effect}}},
+         {.fields =
+              {{"GAB", &OE::gab, "M/LT2", "shear modulus in the plane", rules::required_positive},
+               {"GBC", &OE::gbc, "M/LT2", "across it along b", rules::required_positive},
+               {"GCA", &OE::gca, "M/LT2", "across it along a", rules::required_positive},
+               {"AOPT", &OE::aopt, "-",
+                "direction a of shells: 0 along side 1-2, 2 along A, 3 along V x normal; in solids 0 by "
+                "nodes 1, 2, 4, "
+                "2 by A and D, 3 by V x n and n, the normal of the middle face; < 0: axes of system -AOPT"},
+               {"G", &OE::g, "M/LT2", "damping that does not depend on the frequency", unsupported},
+               {"SIGF", &OE::sigf, "M/LT2", "limit of that damping", no_effect}}},
          {.fields = with_fields<OE>(
               fields_of_a<OE>(),
               {{"MACF", &OE::macf, "-", "change of axes: 1 none", {.standard = 1, .allowed = {1}}},
                {"IHIS", &OE::ihis, "-", "moduli from *INITIAL_STRESS", unsupported}})},
          {.fields = with_fields<OE>(
-              fields_of_v<OE>(),
+              {{"V1", &OE::v1, "-", "direction v of AOPT 3, x", rules::direction},
+               {"V2", &OE::v2, "-", "direction v, y"},
+               {"V3", &OE::v3, "-", "direction v, z"},
+               {"D1", &OE::d1, "-", "direction d of AOPT 2 in solids, c = a x d, x", rules::direction},
+               {"D2", &OE::d2, "-", "direction d, y"},
+               {"D3", &OE::d3, "-", "direction d, z"}},
               {{"BETA", &OE::beta, "-", "angle by which a is turned about the normal, degrees"},
                {"REF", &OE::ref, "-", "reference geometry", unsupported}})}}}};
 

@@ -1,52 +1,22 @@
-#include <cmath>
-
 #include <fmt/format.h>
 
+#include "keyword/expectations.hpp"
 #include "laws/materials/strength_cards.hpp"
-#include "laws/strength/strength.hpp"
+#include "laws/materials/viscoelastic_cards.hpp"
+#include "laws/strength/prony_series.hpp"
 
 namespace courant {
 
 namespace {
 
-/// The standard linear solid in shear: 2 GI of the deviator of strain beside a Maxwell element of G0 - GI,
-/// whose stress m decays. Of a rate that is constant in the step
-///   m_new = f m + 2 (G0 - GI) (1 - f)/BETA dev(D),  f = exp(-BETA dt),
-/// is exact.
-class Viscoelastic : public StrengthLaw {
- public:
-  Viscoelastic(Real density, Real bulk, Real G0, Real GI, Real beta)
-      : bulk_(bulk), short_(G0), long_(GI), beta_(beta) {
-    ro = density;
-  }
-  Real bulk_modulus() const override { return bulk_; }
-  Real shear_modulus() const override { return short_; }
-  std::vector<HistoryVariable> history() const override { return {{"maxwell_stress", "M/LT2", 6}}; }
-
-  void update(const PointBlock& block) const override {
-    const auto& D = block.rate;
-    const Real x = beta_ * block.dt, keeps = std::exp(-x);
-    const Real grows = 2 * (short_ - long_) * block.dt * (x > 0 ? -std::expm1(-x) / x : 1);
-    const Real stays = 2 * long_ * block.dt, volumetric = bulk_ * block.dt;
-    for (Index i = 0; i < block.count; ++i) {
-      const Real trace = D[0][i] + D[1][i] + D[2][i];
-      for (std::size_t k = 0; k < 6; ++k) {
-        const Real deviator = D[k][i] - (k < 3 ? trace / 3 : 0);
-        Real& m = block.history[k][i];
-        const Real now = keeps * m + grows * deviator;
-        block.stress[k][i] += (k < 3 ? volumetric * trace : 0) + stays * deviator + now - m;
-        m = now;
-      }
-    }
-    keep_stiffness(block, sound_speed());
-  }
-
- private:
-  Real bulk_, short_, long_, beta_;
-};
+/// The standard linear solid in shear: GI beside a Maxwell element of G0 - GI.
+std::shared_ptr<StrengthLaw> standard_solid(Real ro, Real bulk, Real g0, Real gi, Real rate) {
+  return std::make_shared<PronySeries>(ro, std::vector<PronyTerm>{{gi, 0}, {g0 - gi, rate}},
+                                       std::vector<PronyTerm>{{bulk, 0}});
+}
 
 struct MatViscoelastic : MatViscoelasticFields {
-  std::shared_ptr<StrengthLaw> law() const { return std::make_shared<Viscoelastic>(ro, bulk, g0, gi, beta); }
+  std::shared_ptr<StrengthLaw> law() const { return standard_solid(ro, bulk, g0, gi, beta); }
   void check(const Deck& deck, Diagnostics& diagnostics) const {
     if (!(gi <= g0))
       deck.error(diagnostics, *this, "GI", fmt::format("expected a number <= G0, got '{:g}'", gi),
@@ -58,25 +28,59 @@ struct MatViscoelastic : MatViscoelasticFields {
 // the deviator (2, -1, -1): m = 2/ln 2 of it, and 2 of it stay. Without strain m is halved. Of the volume
 // alone, D dt = (1, 1, 1): 5.
 constexpr Real relaxing_part = 2.8853900817779268;
+std::vector<StrengthReference> relaxes(const std::string& cards) {
+  return {{cards,
+           {2, -1, -1},
+           {},
+           {2 * (2 + relaxing_part), -2 - relaxing_part, -2 - relaxing_part},
+           {},
+           {2 * relaxing_part, -relaxing_part, -relaxing_part, 0, 0, 0}},
+          {cards,
+           {},
+           {6, -3, -3, 2, 0, 0},
+           {5, -2.5, -2.5, 1.5, 0, 0},
+           {2, -1, -1, 1, 0, 0},
+           {1, -0.5, -0.5, 0.5, 0, 0}},
+          {"1,2.0,1.6666666666666667,3.0,1.0\n", {1, 1, 1, 0.5, 0, 0}, {}, {5, 5, 5, 3, 0, 0}}};
+}
 const RegisterStrength<MatViscoelastic> mat_viscoelastic{
     "s = 2 int G(t - u) dev(D)(u) du, G(t) = GI + (G0 - GI) exp(-BETA t), turned with the body; pressure by "
     "BULK",
-    "Herrmann & Peterson 1968",
-    {{"1,2.0,1.6666666666666667,3.0,1.0,1.3862943611198906\n",
-      {2, -1, -1},
-      {},
-      {2 * (2 + relaxing_part), -2 - relaxing_part, -2 - relaxing_part},
-      {},
-      {2 * relaxing_part, -relaxing_part, -relaxing_part, 0, 0, 0}},
-     {"1,2.0,1.6666666666666667,3.0,1.0,1.3862943611198906\n",
-      {},
-      {6, -3, -3, 2, 0, 0},
-      {5, -2.5, -2.5, 1.5, 0, 0},
-      {2, -1, -1, 1, 0, 0},
-      {1, -0.5, -0.5, 0.5, 0, 0}},
-     {"1,2.0,1.6666666666666667,3.0,1.0\n", {1, 1, 1, 0.5, 0, 0}, {}, {5, 5, 5, 3, 0, 0}}},
+    "Herrmann & Peterson 1968", relaxes("1,2.0,1.6666666666666667,3.0,1.0,1.3862943611198906\n"),
     mat_viscoelastic_table()};
 
+/// FO 0: ds/dt by the exponential; FO 1: ds/dt + s/DC = 2 G0 de/dt + 2 GI e/DC, which is the same with a rate
+/// of 1/DC.
+struct MatKelvinMaxwellViscoelastic : MatKelvinMaxwellViscoelasticFields {
+  std::shared_ptr<StrengthLaw> law() const {
+    return standard_solid(ro, bulk, g0, gi, fo == 0 || dc == 0 ? dc : 1 / dc);
+  }
+  void check(const Deck& deck, Diagnostics& diagnostics) const {
+    const auto expect = expectations_of(*this, deck, diagnostics);
+    expect(gi <= g0, "GI", "a number <= G0", gi, "the shear modulus falls with time");
+    expect(fo == 0 || fo == 1, "FO", "0 or 1", fo, "0: Maxwell, 1: Kelvin");
+    if (fo == 1) expect(dc > 0, "DC", "a number > 0", dc, "the time in which stress relaxes");
+  }
+};
+
+const RegisterStrength<MatKelvinMaxwellViscoelastic> mat_kelvin_maxwell_viscoelastic{
+    "s = 2 int G(t - u) dev(D)(u) du, G(t) = GI + (G0 - GI) exp(-t DC) or exp(-t/DC), turned with the body; "
+    "pressure "
+    "by BULK",
+    "Herrmann & Peterson 1968; the solid of three parameters",
+    [] {
+      auto out = relaxes("1,2.0,1.6666666666666667,3.0,1.0,1.3862943611198906\n");
+      for (StrengthReference& kelvin : relaxes("1,2.0,1.6666666666666667,3.0,1.0,0.72134752044448170,1.0\n"))
+        if (!kelvin.new_history.empty()) out.push_back(std::move(kelvin));
+      return out;
+    }(),
+    mat_kelvin_maxwell_viscoelastic_table()};
+
 }  // namespace
+
+std::string convert_decay(MatKelvinMaxwellViscoelasticFields& card, const Conversion& conversion) {
+  card.dc *= conversion.units.of(card.fo == 0 ? "1/T" : "T");
+  return "";
+}
 
 }  // namespace courant

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "laws/most_history.hpp"
 #include "laws/strength/beam_stress.hpp"
 #include "parallel/parallel.hpp"
 
@@ -15,7 +16,7 @@ class SavedPoints {
  public:
   explicit SavedPoints(const PointBlock& block) : block_(block) {
     if (block.history.size() > most_history)
-      throw std::logic_error("plane stress of a law with more than 16 history numbers");
+      throw std::logic_error("plane stress of a law with too many history numbers");
     for (std::size_t k = 0; k < 6; ++k) std::copy_n(block.stress[k], block.count, stress_[k].data());
     for (std::size_t k = 0; k < block.history.size(); ++k)
       std::copy_n(block.history[k], block.count, history_[k].data());
@@ -27,7 +28,6 @@ class SavedPoints {
   }
 
  private:
-  static constexpr std::size_t most_history = 16;
   using Numbers = std::array<Real, block_size>;
   const PointBlock& block_;
   std::array<Numbers, 6> stress_;

@@ -279,9 +279,8 @@ class RigidWallReader {
           count.bodies.push_back({i, body});
           count.see(gap, points.x->vec(i), shape.tail);
         }
-      } else if (driven && (*driven)[i] != 0) {
-        if (count.driven++ == 0) count.driven_id = (*points.id)[i];
       } else {
+        if (driven && (*driven)[i] != 0 && count.driven++ == 0) count.driven_id = (*points.id)[i];
         ++count.held;
         count.see(gap, points.x->vec(i), shape.tail);
       }
@@ -300,10 +299,12 @@ class RigidWallReader {
                       count.tied, count.tied_id),
           "leave them out by NSIDEX, or tie them by a contact with _OFFSET");
     if (count.driven > 0)
-      deck_.warning(diagnostics_, card, "NSID",
-                    fmt::format("the wall does not hold {} points whose motion is prescribed, as {}",
-                                count.driven, count.driven_id),
-                    "leave them out by NSIDEX");
+      deck_.warning(
+          diagnostics_, card, "NSID",
+          fmt::format("the wall does not hold {} points, as {}, while prescribed motions drive them "
+                      "in a direction that is not along the wall",
+                      count.driven, count.driven_id),
+          "leave them out by NSIDEX, or end the motions by DEATH");
     if (count.behind > 0)
       deck_.warning(diagnostics_, card, "",
                     fmt::format("{} points start {} the wall, by up to {:.4g}: {}", count.behind,

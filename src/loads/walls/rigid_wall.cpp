@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "loads/loads.hpp"
+#include "loads/middle_velocity.hpp"
 #include "parallel/parallel.hpp"
 #include "state/reports.hpp"
 #include "state/restartable.hpp"
@@ -66,6 +67,8 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     for (HeldPoints& set : sets_) {
       set.axes = shared_fields::held_axes.find(*set.points.set);
       set.driven = shared_fields::prescribed_motion.find(*set.points.set);
+      set.projector = shared_fields::driven_projector.find(*set.points.set);
+      set.change = shared_fields::driven_change.find(*set.points.set);
     }
   }
   void clear(std::size_t set, Index begin, Index end) {
@@ -184,16 +187,20 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
   Approach approach(const HeldPoints& set, const Clock& clock, int dim, Index i) const {
     Approach a;
     const Index state = set.state[i];
-    if (state == 0 || (set.driven && (*set.driven)[i] != 0)) return a;
+    if (state == 0) return a;
     const Vec x = set.points.x->vec(i), others = set.points.f->vec(i) - set.push.vec(i);
     const WallShape::Near near = nearest(x);
     a.n = a.along = near.n;
+    constexpr Real along_wall = 1e-9;  // cosine
+    const bool driven = set.driven && (*set.driven)[i] != 0;
+    if (driven && (!set.projector || driven_part(*set.projector, i, near.n).norm() > along_wall)) return a;
     for (int k = 0; k < 3; ++k)
       if ((set.axes && (*set.axes)[i] & (1 << k)) || k >= dim) a.along[k] = 0, a.confined = true;
     constexpr Real free_enough = 1e-12;
     const Real share = a.along.squaredNorm(), m = (*set.points.m)[i];
     if (share < free_enough) return a;
     a.v = set.points.v->vec(i) + others * (clock.dt_mean() / m);
+    if (driven) a.v += set.change->vec(i) - driven_part(*set.projector, i, others) * (clock.dt_mean() / m);
     a.welded = state == 2;
     a.held = a.welded || wall_.shape.meets(x + (a.v - drive_) * clock.dt - moved_, near.gap);
     a.inertia = m / share;

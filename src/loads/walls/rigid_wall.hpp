@@ -37,6 +37,8 @@ struct HeldPoints {
   Field<Index>& state;  ///< 0 not held, 1 held, 2 welded
   Field<Real>& push;    ///< force of the wall in this step [ML/T2]
   const Field<Index>*axes = nullptr, *driven = nullptr;
+  const Field<Real>*projector = nullptr,
+        *change = nullptr;  ///< shared_fields::driven_projector, driven_change
 };
 
 /// A wall and the points of all sets that it holds; each wall names the same sets in the same order.

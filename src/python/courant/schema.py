@@ -83,6 +83,8 @@ def _of_scene() -> tuple[Schema, Schema]:
     defs = {name: _map(table) for name, table in TABLES.items() if ":" not in name}
     defs |= {f"a {name}": _map(shape, TABLES.get(f"a {name}, besides its shape", {})) for name in ("wall", "body", "body of water")}
     defs["a structure"] = _map(TABLES["a kind of structure"], TABLES["of every structure"])
+    defs["a section"] = _map(TABLES["a kind of section"], TABLES["of every section"])
+    defs["a rotation"] = _map(TABLES["how a wall is turned"], TABLES["of every rotation"])
     defs["a gas"] = _map(TABLES["a block"], TABLES["a gas, besides its lattice"])
     return {"anyOf": [_map(TABLES["the scene"]), _map(TABLES["a base"])]}, defs
 

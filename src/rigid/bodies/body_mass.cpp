@@ -1,6 +1,7 @@
 #include "rigid/bodies/body_mass.hpp"
 
 #include <cmath>
+#include <Eigen/Eigenvalues>
 
 namespace courant {
 
@@ -90,6 +91,19 @@ void join_mass(RigidBody& b, const RigidBody& other) {
   b.J0 = about(b) + Matrix(about(other));
   b.L += other.L + b.m * (b.x - x).cross(b.v - v) + other.m * (other.x - x).cross(other.v - v);
   b.m = m, b.x = x, b.v = v;
+}
+
+void complete_inertia(RigidBody& b, Real size) {
+  constexpr Real round_off = 1e-9;
+  const Eigen::SelfAdjointEigenSolver<Matrix> own(b.J0);
+  const Vec J = own.eigenvalues();
+  if (!(J[2] > round_off * b.m * size * size)) {
+    b.no_turn = {true, true, true};
+    return;
+  }
+  if (J[0] > round_off * J[2]) return;
+  const Vec axis = own.eigenvectors().col(0);
+  b.J0 += J[2] * axis * axis.transpose();
 }
 
 bool can_turn(const RigidBody& b) {

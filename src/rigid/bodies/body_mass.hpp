@@ -37,6 +37,10 @@ void take_mass(RigidBody& body, const MassIntegrals& sums);
 /// Two bodies as one: their momenta, and inertia about the common centre.
 void join_mass(RigidBody& body, const RigidBody& other);
 
+/// Nodes on a line have no inertia about it, nor does a force on them turn them about it: with any inertia
+/// there they move the same. Nodes at one position do not turn. `size`: of the body [L].
+void complete_inertia(RigidBody& body, Real size);
+
 /// Whether there is inertia about all axes that may turn: not where all nodes lie on a line.
 bool can_turn(const RigidBody& body);
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <set>
 
 #include "rigid/bodies/body_mass.hpp"
@@ -14,21 +13,6 @@
 namespace courant {
 
 namespace {
-
-/// Nodes on a line have no inertia about it, nor does a force on them turn them about it: with any inertia
-/// there they move the same. Nodes at one position do not turn.
-void complete_inertia(RigidBody& b, Real size) {
-  constexpr Real round_off = 1e-9;
-  const Eigen::SelfAdjointEigenSolver<Matrix> own(b.J0);
-  const Vec J = own.eigenvalues();
-  if (!(J[2] > round_off * b.m * size * size)) {
-    b.no_turn = {true, true, true};
-    return;
-  }
-  if (J[0] > round_off * J[2]) return;
-  const Vec axis = own.eigenvectors().col(0);
-  b.J0 += J[2] * axis * axis.transpose();
-}
 
 /// Rotary inertia of the nodes of shells and beams, which start as *INITIAL_VELOCITY turns them.
 void add_rotary(const Model& model, const NodalBody& nodal, const std::map<Id, Index>& world_node,

@@ -10,6 +10,7 @@
 #include "model/transforms/transformation.hpp"
 #include "rigid/bodies/nodal_bodies.hpp"
 #include "rigid/bodies/rigid_cards.hpp"
+#include "rigid/switches/failing_welds.hpp"
 
 namespace courant {
 
@@ -225,8 +226,10 @@ std::vector<NodalBody> nodal_bodies(const Deck& deck, const Model& model, Diagno
   if (cards.empty() && spots.empty() && sets.empty()) return {};
   NodalBodyReader reader(deck, model, diagnostics);
   for (const NB& card : cards) reader.add(card);
-  for (const SW& card : spots) reader.add(card);
-  for (const WS& card : sets) reader.add(card);
+  for (const SW& card : spots)
+    if (!may_fail(card)) reader.add(card);
+  for (const WS& card : sets)
+    if (!may_fail(card)) reader.add(card);
   return reader.bodies();
 }
 

@@ -123,8 +123,9 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   Real step_share() const { return step_share_; }
 
   void set_loads(BodyAcceleration loads) { loads_ = std::move(loads); }
-  /// -D m v at the centre and -D L about it, by the parts of bodies; as for nodes (loads/damping.cpp).
-  void set_damping(std::vector<Damping> damping) { damping_ = std::move(damping); }
+  /// -D m v at the centre and -D L about it, with the damping of a body's first part; as for nodes
+  /// (loads/damping.cpp). Refuses other damping of parts that are merged into a body.
+  void set_damping(std::vector<Damping> damping, const Model& model, Diagnostics& diagnostics);
 
   std::string name() const override { return "rigid bodies"; }
   /// Sums the forces on the bodies' nodes: each piece alone, then the pieces in order, so that any number of
@@ -138,6 +139,8 @@ class RigidBodies : public EnergyTerm, public BoundaryForceReporter, public Rest
   /// Adds kinetic and potential energy of the bodies that can move.
   void sample(const World& world, const Clock& clock, EnergyLedger& ledger) const override;
 
+  /// One more load; a moment on a node of a body is a couple on the body.
+  void add_load(std::size_t body, BodyForceLoad load) { bodies_[body].loads.push_back(std::move(load)); }
   /// Lets bodies follow *BOUNDARY_PRESCRIBED_MOTION_RIGID and _LOCAL. Refuses by name: parts that are no
   /// rigid bodies, directions that are held or driven twice, local ones of bodies that are held or have no
   /// axes.

@@ -17,6 +17,7 @@
 #include "rigid/bodies/body_mass.hpp"
 #include "rigid/bodies/held_nodes.hpp"
 #include "rigid/bodies/rigid.hpp"
+#include "rigid/switches/body_for_a_while.hpp"
 #include "rigid/switches/deformable_to_rigid.hpp"
 #include "rigid/switches/switch_cards.hpp"
 #include "state/reports.hpp"
@@ -28,12 +29,8 @@ namespace courant {
 namespace {
 
 /// Parts that are one body while they are rigid.
-struct SwitchedBody {
+struct SwitchedBody : BodyForAWhile {
   std::vector<Index> parts{};
-  RigidBody b{};
-  Index active = 0;
-  HalfStep next{};  ///< of the step to come
-  BodyPose pose{};
 };
 
 /// A switch, with bodies by index.
@@ -55,10 +52,7 @@ class SwitchedParts : public SwitchedNodes,
       : bodies_(std::move(bodies)),
         switches_(std::move(switches)),
         at_start_(std::move(at_start)),
-        moment_(shared_fields::moment.find(world.nodes.fields)),
-        omega_(shared_fields::angular_velocity.find(world.nodes.fields)),
-        inertia_(shared_fields::rotary_inertia.find(world.nodes.fields)),
-        no_turn_(shared_fields::no_rotation.find(world.nodes.fields)) {}
+        turns_(world) {}
   std::string name() const override { return "parts that are rigid for a while"; }
   std::vector<std::vector<Index>> nodes_of_bodies() const override {
     std::vector<std::vector<Index>> out;
@@ -70,18 +64,13 @@ class SwitchedParts : public SwitchedNodes,
     if (clock.cycle != looked_at_) look(world, clock);
     looked_at_ = clock.cycle;
     for (SwitchedBody& body : bodies_)
-      if (body.active != 0) move(world, clock, body);
+      if (body.active != 0) body.move(world, clock, turns_);
   }
   bool rings() const override { return false; }
   Limit limit(const World&, const Clock&) override { return {longest_, "DTMAX of " + name()}; }
 
   void record(World&, const Clock& clock, EnergyLedger&) override {
-    for (SwitchedBody& body : bodies_) {
-      if (body.active == 0) continue;
-      RigidBody& b = body.b;
-      b.v = body.next.v, b.L = body.next.L, b.omega = turning_over(b, b.L, clock.dt);
-      b.x = body.pose.x, b.q = body.pose.q;
-    }
+    for (SwitchedBody& body : bodies_) body.advance(clock);
   }
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
@@ -98,11 +87,7 @@ class SwitchedParts : public SwitchedNodes,
       const std::string of_body = fmt::format("body {}", k);
       if (is_new(of_body + "/active")) continue;
       const Archive::Group inside(archive, of_body);
-      RigidBody& b = bodies_[k].b;
-      archive("active", bodies_[k].active), archive("mass", b.m), archive("places", b.X);
-      archive("x", b.x), archive("v", b.v), archive("L", b.L), archive("omega", b.omega);
-      archive.rows("q", std::vector<Real*>{b.q.coeffs().data()}, 4);
-      archive.rows("inertia", std::vector<Real*>{b.J0.data()}, 9);
+      bodies_[k].keep(archive);
     }
   }
 
@@ -130,7 +115,7 @@ class SwitchedParts : public SwitchedNodes,
       if (clock.t < blocked_until_ || !may_act(s, world) || !holds(s.card, world, clock.t)) continue;
       ++s.acted;
       bool any = s.card.at_restart.empty();
-      for (const std::size_t k : s.releases) any |= release(world, clock, bodies_[k]);
+      for (const std::size_t k : s.releases) any |= bodies_[k].release(world, clock, turns_);
       for (const std::size_t k : s.stiffens) any |= stiffen(world, clock, bodies_[k]);
       if (s.card.time3 > 0) blocked_until_ = clock.t + s.card.time3;
       if (s.card.at_restart.empty() || s.card.dtmax > 0)
@@ -139,52 +124,10 @@ class SwitchedParts : public SwitchedNodes,
     }
   }
 
-  bool turns(Index n) const { return no_turn_ && (*no_turn_)[n] == 0; }
-
-  /// Momenta stay; what the nodes move against each other at t^n, half a step behind their velocities, is
-  /// lost.
-  bool stiffen(World& world, const Clock& clock, SwitchedBody& body) {
+  bool stiffen(World& world, const Clock& clock, SwitchedBody& body) const {
     if (body.active != 0 || some_part_is_rigid(body)) return false;
-    RigidBody& b = body.b;
-    const Nodes& nodes = world.nodes;
-    const Real half = 0.5 * clock.dt_old;
-    MassIntegrals sums{.origin = nodes.x.vec(b.nodes.front())};
-    Vec spin = Vec::Zero();
-    Real before = 0, inertia = 0;
-    for (const Index n : b.nodes) {
-      const Real m = nodes.m[n];
-      const Vec v = nodes.v.vec(n) + half / m * nodes.f.vec(n);
-      sums.add_point(m, nodes.x.vec(n), v);
-      before += 0.5 * m * v.squaredNorm();
-      if (!turns(n)) continue;
-      const Real I = (*inertia_)[n];
-      const Vec w = omega_->vec(n) + half / I * moment_->vec(n);
-      inertia += I, spin += I * w, before += 0.5 * I * w.squaredNorm();
-    }
-    take_mass(b, sums);
-    b.J0 += inertia * Matrix::Identity(), b.L += spin;
-    b.q = Eigen::Quaterniond::Identity();
-    b.omega = b.omega_of(b.q);
-    const Real lost = before - b.kinetic_energy();
-    world.energy.dissipated += lost, world.energy.throughput += std::abs(lost);
-    b.X.clear();
-    for (const Index n : b.nodes) b.X.push_back(nodes.x.vec(n) - b.x);
-    sum_forces(world, b);
-    b.v -= half / b.m * b.force, b.L -= half * b.moment;
-    body.active = 1;
-    give_half_step(world, clock.dt_old, b);
+    body.stiffen(world, clock, turns_);
     return true;
-  }
-  /// Velocities of nodes as the step before would have left them.
-  void give_half_step(World& world, Real dt_old, RigidBody& b) const {
-    b.omega = turning_over(b, b.L, -dt_old);
-    const Matrix back = turned_by(-dt_old * b.omega, b.q).toRotationMatrix();
-    for (std::size_t k = 0; k < b.nodes.size(); ++k) {
-      const Index n = b.nodes[k];
-      const Vec v = dt_old > 0 ? Vec((b.X[k] - back * b.X[k]) / dt_old) : Vec(b.omega.cross(b.X[k]));
-      world.nodes.v.set(n, b.v + v);
-      if (turns(n)) omega_->set(n, b.omega);
-    }
   }
   bool some_part_is_rigid(const SwitchedBody& body) const {
     return std::any_of(bodies_.begin(), bodies_.end(), [&](const SwitchedBody& other) {
@@ -193,54 +136,10 @@ class SwitchedParts : public SwitchedNodes,
              });
     });
   }
-  /// At t^n the nodes have the velocities of the body.
-  bool release(World& world, const Clock& clock, SwitchedBody& body) {
-    if (body.active == 0) return false;
-    body.active = 0;
-    RigidBody& b = body.b;
-    Nodes& nodes = world.nodes;
-    const Real half = 0.5 * clock.dt_old;
-    sum_forces(world, b);
-    const Vec v = b.v + half / b.m * b.force, omega = b.turning_by(b.L + half * b.moment, b.q);
-    for (const Index n : b.nodes) {
-      nodes.v.set(n, v + omega.cross(nodes.x.vec(n) - b.x) - half / nodes.m[n] * nodes.f.vec(n));
-      if (turns(n)) omega_->set(n, omega - half / (*inertia_)[n] * moment_->vec(n));
-    }
-    return true;
-  }
-
-  void sum_forces(const World& world, RigidBody& b) const {
-    b.force.setZero(), b.moment.setZero();
-    for (const Index n : b.nodes) {
-      const Vec f = world.nodes.f.vec(n);
-      b.force += f, b.moment += (world.nodes.x.vec(n) - b.x).cross(f);
-      if (turns(n)) b.moment += moment_->vec(n);
-    }
-  }
-
-  /// Forces that take each node to where the body has it at the end of the step.
-  void move(World& world, const Clock& clock, SwitchedBody& body) const {
-    RigidBody& b = body.b;
-    Nodes& nodes = world.nodes;
-    sum_forces(world, b);
-    body.next = next_half_step(b, clock);
-    body.pose = pose_after(b, body.next, clock.dt);
-    const Vec omega = turning_over(b, body.next.L, clock.dt);
-    const Matrix R = body.pose.q.toRotationMatrix();
-    for (std::size_t k = 0; k < b.nodes.size(); ++k) {
-      const Index n = b.nodes[k];
-      const Vec v = (body.pose.x + R * b.X[k] - nodes.x.vec(n)) / clock.dt;
-      nodes.f.set(n, nodes.m[n] / clock.dt_mean() * (v - nodes.v.vec(n)));
-      if (turns(n)) moment_->set(n, (*inertia_)[n] / clock.dt_mean() * (omega - omega_->vec(n)));
-    }
-  }
-
   std::vector<SwitchedBody> bodies_;
   std::vector<PartSwitch> switches_;
   std::vector<std::size_t> at_start_;  ///< bodies that are rigid then
-  Field<Real>*moment_, *omega_;        ///< of rotations of nodes; null: there are none
-  const Field<Real>* inertia_;
-  const Field<Index>* no_turn_;
+  NodalTurns turns_;
   std::int64_t looked_at_ = -1;  ///< cycle
   Real blocked_until_ = 0;       ///< [T]
   Real longest_ = std::numeric_limits<Real>::infinity();
@@ -374,7 +273,8 @@ class SwitchReader {
               "name a part that becomes rigid with it; to join a *MAT_RIGID is not supported");
         return {};
       }
-      SwitchedBody body{.parts = {one.part}};
+      SwitchedBody body;
+      body.parts = {one.part};
       std::set<Index> nodes = nodes_of_[one.part];
       for (auto other = bodies.begin(); other != bodies.end();) {
         const bool joined = has(*other, of_lead) || shares(other->b.nodes, nodes) ||

@@ -75,7 +75,7 @@ void rates(const PairArrays& arrays, const PairLists& all_lists) {
   Index kept = 0;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
     const Pack norm =
@@ -164,7 +164,7 @@ void forces(const PairArrays& arrays, const PairLists& all_lists) {
   Real nowhere[share_count]{};
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count);
+    const Positions<Dim> xi(a.x, i, count);
     const Pack hi = UniformH ? Pack::of(a.h0) : Pack::load(a.h + i, count);
     const Pack hinv = UniformH ? Pack::of(1 / a.h0) : 1 / hi;
     const Pack norm =
@@ -271,7 +271,7 @@ void fix(const PairArrays& a, const FrozenLists& lists) {
   Index kept = 0;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack mi = Pack::load(a.m + i, count), rhoi = mi / Pack::load(a.V + i, count);
     const Pack qci = lists.viscous ? Pack::load(a.qc + i, count) : Pack::zero();
     lists.start[g] = kept;

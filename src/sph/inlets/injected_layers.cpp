@@ -15,8 +15,8 @@ namespace {
 
 constexpr Real most_particles = 5e7;  // a typing error in a spacing should not fill the memory
 
-/// Places of an inlet that share a factor on the velocity, so that their particles come in together: all of
-/// them where there is no profile.
+/// Positions of an inlet that share a factor on the velocity, so that their particles come in together: all
+/// of them where there is no profile.
 struct Row {
   std::size_t inlet = 0;
   Real factor = 1;

@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Places in the plane of an inlet, and what part of its area each has.
+/// Positions in the plane of an inlet, and what part of its area each has.
 struct InletShape {
   std::vector<Vec> places;  ///< [L]
   Real area = 0;            ///< of one position [L2], in 2D per unit of depth [L]

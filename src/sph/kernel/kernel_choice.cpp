@@ -1,6 +1,9 @@
 // *COURANT_KERNEL, and what kernel a deck asks for.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "keyword/registry.hpp"
 #include "sph/cards.hpp"
 #include "sph/kernel/kernel_cards.hpp"
@@ -47,8 +50,10 @@ KernelChoice read_kernel(const Deck& deck, const Model& model, Diagnostics& diag
                fmt::format("'{}' asks for the {}, *COURANT_KERNEL for {}", section->sphkern,
                            kernel_name(of_sections), c->name),
                "leave SPHKERN blank, or leave *COURANT_KERNEL out");
-  if (c->name == "wendland_c2") return KernelChoice::wendland_c2;
-  if (c->name == "wendland_c4") return KernelChoice::wendland_c4;
+  std::string name = c->name;
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char a) { return std::tolower(a); });
+  if (name == "wendland_c2") return KernelChoice::wendland_c2;
+  if (name == "wendland_c4") return KernelChoice::wendland_c4;
   deck.error(diagnostics, *c, "NAME",
              c->name.empty() ? std::string("expected the name of a kernel, got a blank field")
                              : fmt::format("there is no kernel '{}'", c->name),

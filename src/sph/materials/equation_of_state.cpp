@@ -50,6 +50,7 @@ void EquationOfState::declare(const World& world, Accesses& a) const {
   if (!same_for_all_) a.reads(p.part);
   if (memory_) a.updates(*memory_);
   if (!law_->uses_energy()) return;
+  if (parts_.burnt) a.reads(*parts_.burnt);
   if (parts_.least_pressure) a.reads_before(*parts_.least_pressure);
   if (heat_.empty()) return;
   a.reads(reference_volume_);
@@ -103,7 +104,8 @@ void EquationOfState::advance_with_energy(Particles& p, Real dt, Index begin, In
     for (const Field<Real>* heat : heat_) power += (*heat)[i];
     if (!heat_.empty() && reference_volume_[i] > 0) E += power * dt / reference_volume_[i];
     const Real least = parts_.least_pressure ? (*parts_.least_pressure)[i] : pc;
-    const Real pressure = std::max((A[k] + B[k] * E) / (1 + 0.5 * B[k] * dv[k]), least);
+    const Real burnt = parts_.burnt ? (*parts_.burnt)[i] : 1;
+    const Real pressure = std::max(burnt * (A[k] + B[k] * E) / (1 + 0.5 * burnt * B[k] * dv[k]), least);
     E -= 0.5 * dv[k] * pressure;
     p.p[i] = pressure;
     p.E[i] = E;

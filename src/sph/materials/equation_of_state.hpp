@@ -12,9 +12,10 @@ namespace courant {
 
 /// The parts one pass works for, and what their material adds to the law.
 struct EosParts {
-  std::vector<char> mine;      ///< per part of the model
-  bool all_parts = false;      ///< every particle is mine: no test per particle
-  std::vector<Real> rho0, pc;  ///< per part: reference density [M/L3], tensile cut-off (<= 0) [M/LT2]
+  std::vector<char> mine;              ///< per part of the model
+  bool all_parts = false;              ///< every particle is mine: no test per particle
+  std::vector<Real> rho0, pc;          ///< per part: reference density [M/L3], tensile cut-off (<= 0) [M/LT2]
+  const Field<Real>* burnt = nullptr;  ///< share of each particle whose products have a pressure; null: all
   const Field<Real>* least_pressure = nullptr;  ///< of each particle, instead of pc where the law uses energy
 };
 

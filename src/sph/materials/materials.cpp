@@ -10,6 +10,7 @@
 #include "laws/fluid/mat_null.hpp"
 #include "sph/core/fields.hpp"
 #include "sph/materials/equation_of_state.hpp"
+#include "sph/materials/explosive.hpp"
 #include "sph/materials/strength.hpp"
 
 namespace courant {
@@ -19,9 +20,11 @@ namespace {
 /// Materials that SPH parts may have, by their ids.
 struct ParticleMaterials {
   std::map<Id, const MatNull*> fluids;
+  std::map<Id, const MatHighExplosive*> explosives;
   std::map<Id, std::shared_ptr<StrengthLaw>> strengths;
   ParticleMaterials(const Deck& deck, const Model& model) {
     for (const MatNull& m : deck.all<MatNull>()) fluids.emplace(m.mid, &m);
+    for (const MatHighExplosive& m : deck.all<MatHighExplosive>()) explosives.emplace(m.mid, &m);
     for (const StrengthEntry& kind : strength_registry())
       for (const auto& [id, law] : kind.all(deck, model)) strengths.emplace(id, law);
   }
@@ -94,7 +97,9 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     if (!part.has_sph) continue;
     const auto fluid = known.fluids.find(part.mid);
     const auto strength = known.strengths.find(part.mid);
-    const bool missing = fluid == known.fluids.end() && strength == known.strengths.end();
+    const auto explosive = known.explosives.find(part.mid);
+    const bool burns = explosive != known.explosives.end();
+    const bool missing = fluid == known.fluids.end() && strength == known.strengths.end() && !burns;
     const bool alone = strength != known.strengths.end() && !strength->second->deviator_only();
     if (missing)
       deck.error(
@@ -116,6 +121,9 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     if (fluid != known.fluids.end()) {
       m.ro = fluid->second->ro, m.pc = fluid->second->pc, m.mu = fluid->second->mu;
       refuse_erosion(deck, part, *fluid->second, diagnostics);
+    } else if (burns) {
+      m.ro = explosive->second->ro, m.pc = no_cutoff;
+      explosive->second->check(deck, diagnostics);
     } else {
       m.strength = strength->second;
       if (m.strength->axes())
@@ -135,6 +143,11 @@ std::vector<PartMaterial> find_materials(const Deck& deck, const Model& model, D
     }
     if (alone) continue;
     m.eos = laws.find(deck, part, m.ro, "particles", diagnostics);
+    if (burns && m.eos && !m.eos->uses_energy())
+      deck.error(diagnostics, part.card, "EOSID",
+                 fmt::format("the explosive of part {} needs an equation of state that depends on its energy",
+                             part.id),
+                 "give *EOS_JWL with OMEG > 0 and E0");
   }
   return out;
 }
@@ -163,12 +176,13 @@ const Field<Real>& set_least_pressures(const std::vector<PartMaterial>& material
 void add_equations_of_state(World& world, const Model& model, const std::vector<PartMaterial>& materials,
                             const SphSettings& s) {
   Particles& p = world.particles;
+  const Field<Real>* burnt = burn_fraction.find(p.fields);
   for (Index i = 0; i < p.size(); ++i) {
     const PartMaterial& m = materials[p.part[i]];
     if (!m.eos) continue;
     const Real mu = p.rho[i] / m.ro - 1;
     p.E[i] = m.eos->E0;
-    p.p[i] = std::max(m.eos->pressure(mu, m.eos->E0), m.pc);
+    p.p[i] = std::max((burnt ? (*burnt)[i] : 1) * m.eos->pressure(mu, m.eos->E0), m.pc);
     p.c[i] = std::sqrt(m.eos->sound_speed2(m.ro, mu, m.eos->E0));
   }
   const bool warm = !s.heat_in_internal.empty(), strong = !s.strength.empty();
@@ -187,7 +201,7 @@ void add_equations_of_state(World& world, const Model& model, const std::vector<
       mine.mine.assign(model.parts.size(), 0);
       mine.rho0.assign(model.parts.size(), 0);
       mine.pc.assign(model.parts.size(), 0);
-      mine.least_pressure = least_pressure;
+      mine.least_pressure = least_pressure, mine.burnt = burnt;
     }
     mine.mine[k] = 1;
     mine.rho0[k] = materials[k].ro;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "laws/most_history.hpp"
 #include "laws/objective.hpp"
 #include "laws/strength/strength.hpp"
 #include "sph/core/fields.hpp"
@@ -232,7 +233,6 @@ class StrengthStress : public Material {
     }
   }
 
-  static constexpr std::size_t most_history = 16;
   std::vector<std::shared_ptr<const StrengthLaw>> laws_;
   Field<Real>&rate_, &spin_, &kept_;
   Field<Real>* least_ = nullptr;                    ///< null: no equation of state uses energy

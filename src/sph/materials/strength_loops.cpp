@@ -12,7 +12,7 @@ void spin(const StrengthArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack hi = Pack::load(a.h + i, count), hinv = 1 / hi, tiny = tiny_distance2 * hi * hi;
     Pack wx = Pack::zero(), wy = wx, wz = wx;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
@@ -39,7 +39,7 @@ void artificial_stress(const StrengthArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count);
+    const Positions<Dim> xi(a.x, i, count);
     const Pack hi = Pack::load(a.h + i, count), tiny = tiny_distance2 * hi * hi;
     const Pack at_spacing = 0.5 * Pack::load(a.at_spacing + i, count);
     Pack Ri[6];

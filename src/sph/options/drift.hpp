@@ -69,7 +69,7 @@ class DriftDensity : public Reduction, public EnergyTerm {
   void declare(const World& world, Accesses& a) const override;
   /// What `take_arrays` and `add` touch, for the rate that calls them.
   void declare_rate(const World& world, Accesses& a) const;
-  /// Places, velocities, drifts and densities for the loops.
+  /// Positions, velocities, drifts and densities for the loops.
   void take_arrays(Particles& p, const Clock& clock, DriftArrays& a);
   /// Among the rates: what the loop has found out.
   void add(Particles& p, Index begin, Index end);

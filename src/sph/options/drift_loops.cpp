@@ -57,10 +57,10 @@ void shifting(const DriftArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count);
+    const Positions<Dim> xi(a.x, i, count);
     const Pack hi = Pack::load(a.h + i, count), hinv = 1 / hi, tiny = tiny_distance2 * hi * hi;
     const Pack at_spacing = Pack::load(a.at_spacing + i, count), spread_i = Pack::load(a.spread + i, count);
-    const Places<Dim> vi(a.v, i, count), ui(a.drifted, i, count);
+    const Positions<Dim> vi(a.v, i, count), ui(a.drifted, i, count);
     Sum<Dim> gradient, normal;
     VelocityGradient<Dim> turning;
     DriftRates<Dim> rates;
@@ -100,7 +100,7 @@ void xsph(const DriftArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack hi = Pack::load(a.h + i, count), hinv = 1 / hi, tiny = tiny_distance2 * hi * hi;
     const Pack mi = Pack::load(a.m + i, count), Vi = Pack::load(a.V + i, count);
     const Pack norm = shape_norm<Dim>(kernel, hinv);
@@ -129,7 +129,7 @@ void drift_rate(const DriftArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count), ui(a.drifted, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count), ui(a.drifted, i, count);
     const Pack hi = Pack::load(a.h + i, count), hinv = 1 / hi, tiny = tiny_distance2 * hi * hi;
     DriftRates<Dim> rates;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {

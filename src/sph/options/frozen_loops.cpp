@@ -25,7 +25,7 @@ void rates(const PairArrays& a, const FrozenLists& lists) {
   const std::ptrdiff_t stride = lists.factor_count * lanes;
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> vi(a.v, i, count);
+    const Positions<Dim> vi(a.v, i, count);
     Pack div = Pack::zero(), power = Pack::zero();
     Dyads<Dim> gradient;
     Sum<Dim> force;

@@ -14,7 +14,7 @@ void pair_viscosity(const PairViscosityArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Pack hi = Pack::load(a.h + i, count), hinv = 1 / hi, norm = gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 * hi * hi, mu = Pack::load(a.mu + i, count);
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     Sum<Dim> force;
     Pack power = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {

@@ -22,7 +22,7 @@ void renormal_rates(const RenormalArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Pack hinv = 1 / Pack::load(a.h + i, count), norm = gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 / (hinv * hinv);
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     Dyads<Dim> moment, gradient;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
@@ -67,7 +67,7 @@ void renormal_forces(const RenormalArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Pack hinv = 1 / Pack::load(a.h + i, count), norm = gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 / (hinv * hinv);
-    const Places<Dim> xi(a.x, i, count);
+    const Positions<Dim> xi(a.x, i, count);
     const Pack pi = Pack::load(a.p + i, count);
     Difference<Dim> own = times(Pack::zero(), Difference<Dim>(xi, a.x, i));
     Sum<Dim> others;

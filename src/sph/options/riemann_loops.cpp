@@ -14,7 +14,7 @@ void momentum(const RiemannArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Pack hinv = inverse_h<UniformH>(a.h, a.h0, i, count), norm = gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 / (hinv * hinv);
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack Vi = Pack::load(a.V + i, count), rhoi = Pack::load(a.m + i, count) / Vi;
     const Pack ci = Pack::load(a.c + i, count);
     Sum<Dim> force;
@@ -43,7 +43,7 @@ void mass(const RiemannArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Pack hinv = inverse_h<UniformH>(a.h, a.h0, i, count), norm = gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 / (hinv * hinv);
-    const Places<Dim> xi(a.x, i, count);
+    const Positions<Dim> xi(a.x, i, count);
     const Pack rhoi = Pack::load(a.m + i, count) / Pack::load(a.V + i, count);
     const Pack ci = Pack::load(a.c + i, count), pi = Pack::load(a.p + i, count);
     const Pack potential = Pack::load(a.potential + i, count);

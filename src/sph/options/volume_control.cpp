@@ -36,7 +36,7 @@ constexpr Real looks_per_tau = 50;
 /// below S: w_i falls to 0 where -sum_j V_j r dW/dr / dim, 1 in water and 0.5 at its surface, falls from 0.5
 /// to 0.3. Else their density would fall to a third, and what tension then held together would be thrown
 /// apart.
-class VolumeControl : public Rate, public Restartable {
+class VolumeControl : public Rate, public TimeLimit, public Restartable {
  public:
   VolumeControl(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
                 std::shared_ptr<PairVolumes> volumes)
@@ -65,6 +65,10 @@ class VolumeControl : public Rate, public Restartable {
     a.reads(p.x, Reach::others).reads(p.h).reads(volumes_->before(), Reach::others).updates(rate_);
     if (wall_slope_) a.reads(*wall_slope_).reads(*wall_fill_);
   }
+
+  /// A longer step would take densities past their aim.
+  Limit limit(const World&, const Clock&) override { return {tau_, name()}; }
+  bool rings() const override { return false; }
 
   void start(World&, const Clock& clock) override {
     due_ = clock.t >= next_look_;

@@ -132,6 +132,10 @@ void check_numbers(const Deck& deck, const T& c, const SphSettings& s, Diagnosti
 void read_turbulence(const Deck& deck, const Model& model, const World& world, SphSettings& s,
                      Diagnostics& diagnostics) {
   const auto* c = deck.last<T>();
+  if (c == nullptr)
+    for (const CourantTurbulenceInitial& start : deck.all<CourantTurbulenceInitial>())
+      deck.error(diagnostics, start, "", "the deck has no turbulence model that k and epsilon start",
+                 "add *COURANT_TURBULENCE with MODEL 2, or leave the card out");
   if (c == nullptr || model.sph.empty()) return;
   check_numbers(deck, *c, s, diagnostics);
   TurbulenceRules& t = s.turbulence;

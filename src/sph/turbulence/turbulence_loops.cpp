@@ -29,7 +29,7 @@ void turbulence(const TurbulenceArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     const Pack hi = Pack::load(a.h + i, count), hinv = 1 / hi, norm = gradient_norm<Dim>(kernel, hinv);
     const Pack tiny = tiny_distance2 * hi * hi;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     const Pack mu = Pack::load(a.mu + i, count);
     VelocityGradient<Dim> gradient;
     Sum<Dim> slope, force;

@@ -117,7 +117,7 @@ class BeltReader {
 
 }  // namespace
 
-/// A turn has a sense that a mirror would change, and a rate that says nothing of stretched places.
+/// A turn has a sense that a mirror would change, and a rate that says nothing of stretched positions.
 std::string keep_turn(CourantWallBelt& card, const Affine& motion) {
   const bool turns = card.wx != 0 || card.wy != 0 || card.wz != 0;
   const Matrix a = motion.linear();

@@ -1,6 +1,5 @@
 #pragma once
-// Surfaces of walls that move along themselves while their shells stand: moving surfaces, lids, rims of
-// drums.
+// Moving surfaces: walls that move tangentially while the shells are fixed (lids, rims of drums).
 #include <array>
 #include <vector>
 
@@ -10,24 +9,24 @@
 
 namespace courant {
 
-/// How a rigid piece of wall moves.
+/// Rigid motion of a piece of wall.
 struct WallMotion {
   Vec x0 = Vec::Zero(), v = Vec::Zero(), omega = Vec::Zero();  ///< at x0 [L/T]; [1/T]
-  /// Velocity of what moves with it at x [L/T].
+  /// Velocity at x [L/T].
   Vec at(const Vec& x) const { return v + omega.cross(x - x0); }
 };
 
-/// How a rigid body moves three points of which have these positions and velocities; in 2D the first two
-/// count. They are not on one line. [L], [L/T]
+/// Rigid motion of three points with these positions and velocities, not on one line; in 2D the first two
+/// are used. [L], [L/T]
 WallMotion rigid_motion(const std::array<Vec, 3>& x, const std::array<Vec, 3>& v, int dim);
 
-/// Of each segment the moving surface that it belongs to; where there is none, `of_segment` is empty.
+/// Moving surface of each segment; without moving surfaces, `of_segment` is empty.
 struct WallBelts {
   struct Belt {
     WallMotion motion;  ///< at factor 1
     Real sf = 1;
     Curve curve{};  ///< of the factor over time; without points: 1
-    /// By which `motion` is multiplied at time t. [-]
+    /// Factor of `motion` at time t. [-]
     Real factor(Real t) const { return curve.abscissa.empty() ? sf : sf * curve(t); }
   };
   std::vector<Belt> belts{};

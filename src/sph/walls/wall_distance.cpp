@@ -57,7 +57,7 @@ void WallDistance::follow(const World& world, std::int64_t rebuilds) {
   const Particles& p = world.particles;
   if (any_moves_) {
     const Real reach = (1 + 1 / pieces_per_reach) * reach_;
-    const Lookouts from(p, reach, planes_);
+    const OccupiedCells from(p, reach, planes_);
     surface_.emplace(world, segments_, reach_ / pieces_per_reach, reach, planes_, &from);
     return;
   }
@@ -70,7 +70,7 @@ void WallDistance::follow(const World& world, std::int64_t rebuilds) {
   }
 }
 
-/// No place of the cell is farther from its middle than half of its diagonal, r; so the face next to a
+/// No position of the cell is farther from its middle than half of its diagonal, r; so the face next to a
 /// position is at most 2 r farther from the middle than the face next to that.
 std::vector<Index> WallDistance::next_to_cell(const Vec& middle) const {
   const Vec from = surface_->in_plane(middle);

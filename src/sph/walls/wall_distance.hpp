@@ -1,5 +1,5 @@
 #pragma once
-// The nearest wall of shells or faces, of any shape, still or moving.
+// The nearest wall of shells or faces, of any shape, fixed or moving.
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -11,23 +11,22 @@
 
 namespace courant {
 
-/// What a particle sees of the nearest wall.
+/// Nearest wall of a particle.
 struct NearestWall {
   Real distance = std::numeric_limits<Real>::infinity();  ///< to the middle of the shell [L]
   Vec normal = Vec::Zero();                               ///< unit vector from the wall to the particle
   Vec velocity = Vec::Zero();                             ///< of the wall there [L/T]
-  Index segment = -1;                                     ///< -1: there is none within reach
+  Index segment = -1;                                     ///< -1: none within reach
 };
 
 class WallDistance {
  public:
-  /// `reach`: walls farther off do not count [L]; `planes`: of ghosts.
-  /// `cell`: of the order of the spacing of particles [L].
+  /// `reach`: greatest distance [L]; `planes`: of ghosts.
   WallDistance(std::vector<Index> segments, Real reach, Real cell, std::vector<GhostPlane> planes,
                const World& world);
-  /// Once a step: where walls are now, or where none moves, which faces are next to the positions of
-  /// particles. `rebuilds`: of the lists of neighbours; between two of them particles stay near where they
-  /// were.
+  /// Update once per step: positions of moving walls, or, if all are fixed, the faces near the positions
+  /// of particles. `rebuilds`: count of neighbour searches; between two of them particles stay near their
+  /// positions.
   void follow(const World& world, std::int64_t rebuilds);
   bool any_moves() const { return any_moves_; }
   NearestWall nearest(const Vec& x) const;
@@ -39,9 +38,10 @@ class WallDistance {
 
   std::vector<Index> segments_;
   Real reach_;
-  SpaceCells cells_;  ///< walls that are held are looked at from few, each time again
+  SpaceCells cells_;  ///< of fixed walls
   std::vector<GhostPlane> planes_;
-  std::unordered_map<std::uint64_t, std::vector<Index>> next_to_;  ///< faces that may be next, by cell
+  std::unordered_map<std::uint64_t, std::vector<Index>>
+      next_to_;  ///< candidates for the nearest face, by cell
   std::int64_t rebuilds_ = -1;
   bool any_moves_ = false;
   std::optional<WallSurface> surface_;

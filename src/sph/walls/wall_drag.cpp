@@ -17,15 +17,15 @@ int WallPaths::crossings(const Sheets& sheets, const WallPath& path, const Vec& 
   for (auto k = static_cast<std::size_t>(n); k-- > 0;) target[k] = at = by[k]->image(at);
   Vec start = put_aside(x);
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-    const Real from = by[k]->height(start), until = by[k]->height(target[k]), way = from - until;
-    const Vec q = start + (way != 0 ? from / way : Real(0.5)) * (target[k] - start);
+    const Real from = by[k]->height(start), until = by[k]->height(target[k]), ray = from - until;
+    const Vec q = start + (ray != 0 ? from / ray : Real(0.5)) * (target[k] - start);
     to[k] = {face_at(*by[k], q), q};
     start = by[k]->image(start);
   }
   return n;
 }
 
-/// Of one way: u is the velocity of particle i over that of the image, the force on i is `hold` u.
+/// Of one path: u is the velocity of particle i over that of the image, the force on i is `hold` u.
 void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
   const Index i = path.i, j = path.j;
   const Real* V = volumes_->current();
@@ -45,14 +45,15 @@ void WallImages::drag(Particles& p, const WallPath& path, Block& block) const {
   u -= (n % 2 == 0 ? 1 : -1) * p.v.vec(j);
   const Vec force = hold * u;
   (*heat_)[i] -= 0.5 * hold * u.squaredNorm();
-  if (i != j || n % 2 == 1) {  // else it is its own way back, and walls have to do with each other alone
+  if (i != j || n % 2 == 1) {  // else it is its own path back, and walls have to do with each other alone
     p.f.add(i, force);
     if (viscous_) viscous_->add(i, force);
     if (n == 0) return;  // what a wall hides is none of its force
     drag_->add(i, force);
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
-    const WallPull on_wall{.face = met[k].face, .at = met[k].at, .force = (k % 2 == 0 ? -1 : 1) * force};
+    const WallDerivative on_wall{
+        .face = met[k].face, .at = met[k].at, .force = (k % 2 == 0 ? -1 : 1) * force};
     if (at_end().face(on_wall.face).body >= 0) give(on_wall, 1, block);
     block.belt_power -= on_wall.force.dot(slide[k]);
   }

@@ -7,7 +7,7 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-constexpr Real nowhere = 1e30;  ///< so far off is the edge of a particle that has none [L]
+constexpr Real nowhere = 1e30;  ///< distance of a missing edge [L]
 
 /// 1 where a > 0, else 0.
 COURANT_INLINE Pack is_positive(const Pack& a) {
@@ -17,20 +17,21 @@ COURANT_INLINE Pack is_positive(const Pack& a) {
   return out;
 }
 
-/// How a way passes an edge, in the plane across it.
+/// Passage of a path by an edge, in the plane normal to the edge.
 struct Passing {
-  Pack share;       ///< of the path, that a wall takes which it meets or not
-  Pack by_start;    ///< slope of the share, with the distance from the edge at the way's start [1/L]
-  Pack by_end;      ///< and at its end
-  Pack over, into;  ///< the direction of these slopes, along n and m
-  Pack bends;       ///< > 0 where the share goes over
+  Pack share;       ///< of the path that the wall takes
+  Pack by_start;    ///< derivative of the share with respect to the start of the path [1/L]
+  Pack by_end;      ///< the same for its end
+  Pack over, into;  ///< direction of these derivatives, along n and m
+  Pack bends;       ///< > 0 where the share is partial
 };
 
-/// The way from (h, e) to (h_to, e_to), off the wall's plane and from the edge into the wall.
+/// The path from (h, e) to (h_to, e_to): heights over the wall's plane and distances from the edge into
+/// the wall.
 COURANT_INLINE Passing pass(const Pack& h, const Pack& e, const Pack& h_to, const Pack& e_to,
                             const Pack& meets, const Pack& free, Real width, const Pack& tiny) {
   const Pack dh = h_to - h, de = e_to - e;
-  // the middle of ways along the edge, all of which is as near to it
+  // the middle of a path parallel to the edge, which has a constant distance
   const Pack part =
       min(max((0.5 * tiny - (h * dh + e * de)) / (dh * dh + de * de + tiny), Pack::zero()), Pack::of(1));
   const Pack over = h + part * dh, into = e + part * de, r2 = over * over + into * into + tiny,
@@ -45,28 +46,28 @@ COURANT_INLINE Passing pass(const Pack& h, const Pack& e, const Pack& h_to, cons
           free * (Pack::of(0.25 * width * width) - r2)};
 }
 
-/// Walls about the edges of eight particles.
+/// Walls at the edges of eight particles.
 template <int Dim>
 struct EightEdges {
   Difference<Dim> n[2], m[2];
   Pack height[2], inward[2];  ///< of the particles themselves
-  Difference<Dim> v, spin;    ///< of the body at the particles; in the plane spin.z alone
-  bool move = false;          ///< any of them does
-  Real moves[lanes];          ///< 1: this one does
-  Real without[lanes];        ///< 1: this one has no edge, or is not looked at
+  Difference<Dim> v, spin;    ///< of the body at the particles; in 2D spin.z alone
+  bool move = false;          ///< any of the edges moves
+  Real moves[lanes];          ///< 1: its edge moves
+  Real without[lanes];        ///< 1: no edge, or skipped
 
-  /// `set`: strange ones are found here, else they are known.
+  /// `set`: determines `skipped`; else uses it.
   EightEdges(const WallMirrorArrays& a, Index i, Index count, Real back, bool set) {
     Real axis[4][3][lanes], offset[4][lanes], rate[2][3][lanes];
     for (Index l = 0; l < lanes; ++l) {
       const WallEdge* edge = l < count ? a.edge[i + l] : nullptr;
-      if (edge && set) a.strange[i + l] = is_strange(a, *edge, i + l, back);
-      if (edge && a.strange[i + l] != 0) edge = nullptr;
+      if (edge && set) a.skipped[i + l] = is_skipped(a, *edge, i + l, back);
+      if (edge && a.skipped[i + l] != 0) edge = nullptr;
       without[l] = edge == nullptr, moves[l] = edge && edge->moves;
       move = move || moves[l] > 0;
       for (int c = 0; c < 3; ++c) {
         rate[1][c][l] = edge ? edge->spin[c] : 0, rate[0][c][l] = edge ? edge->v[c] : 0;
-        // at the particle, and in the plane spin is across
+        // at the particle; in 2D spin is normal to the plane
         const int next = (c + 1) % 3, last = (c + 2) % 3;
         const auto off = [&](int k) {
           return set && edge && k < Dim ? a.x[k][i + l] + a.aside[k] - back * a.v[k][i + l] - edge->at[k] : 0;
@@ -90,7 +91,7 @@ struct EightEdges {
     take(v, rate[0]), take(spin, rate[1]);
     spin.z = Pack::load(rate[1][2]);
   }
-  /// Less what the velocities of the body at the ends of d differ by.
+  /// Subtracts the difference of the body velocities at the ends of d.
   COURANT_INLINE void take_off(Difference<Dim>& u, const Difference<Dim>& d) const {
     u.x += spin.z * d.y, u.y -= spin.z * d.x;
     if constexpr (Dim == 3) {
@@ -98,18 +99,18 @@ struct EightEdges {
       u.z += spin.y * d.x - spin.x * d.y;
     }
   }
-  COURANT_INLINE void stand_at(const Places<Dim>& x) {
+  COURANT_INLINE void set_heights(const Positions<Dim>& x) {
     for (int k = 0; k < 2; ++k) height[k] += along(n[k], x), inward[k] += along(m[k], x);
   }
-  COURANT_INLINE static Pack along(const Difference<Dim>& n, const Places<Dim>& x) {
+  COURANT_INLINE static Pack along(const Difference<Dim>& n, const Positions<Dim>& x) {
     const Pack two = n.x * x.x + n.y * x.y;
     if constexpr (Dim == 3) return two + n.z * x.z;
     return two;
   }
 
  private:
-  /// Whether it is in what two walls enclose.
-  static bool is_strange(const WallMirrorArrays& a, const WallEdge& edge, Index i, Real back) {
+  /// Whether the particle is inside the corner that two walls enclose.
+  static bool is_skipped(const WallMirrorArrays& a, const WallEdge& edge, Index i, Real back) {
     bool behind = edge.walls == 2;
     for (int k = 0; k < edge.walls; ++k) {
       Real h = 0;
@@ -125,19 +126,20 @@ struct EightEdges {
   }
 };
 
-/// What walls about an edge do to the paths of a pair.
+/// Paths of a pair beside an edge.
 template <int Dim>
-struct Ways {
-  Pack there[2];            ///< of j, as `height` of i
-  Passing straight, by[2];  ///< what hides that way; what each wall throws back
+struct EdgePaths {
+  Pack there[2];            ///< height of j
+  Passing straight, by[2];  ///< hidden part of the straight path; reflection by each wall
   Pack inward[2];           ///< of j
-  COURANT_INLINE Ways(const EightEdges<Dim>& edges, const Difference<Dim>& d, Real width, const Pack& tiny) {
+  COURANT_INLINE EdgePaths(const EightEdges<Dim>& edges, const Difference<Dim>& d, Real width,
+                           const Pack& tiny) {
     Pack hides[2];
     for (int k = 0; k < 2; ++k) {
       there[k] = edges.height[k] - dot(edges.n[k], d);
       inward[k] = edges.inward[k] - dot(edges.m[k], d);
     }
-    // no way passes the edge to who is in what walls enclose
+    // no path passes the edge to a particle inside the corner
     const Pack free = is_positive(max(there[0], there[1]));
     for (int k = 0; k < 2; ++k) {
       const Pack &h = edges.height[k], &e = edges.inward[k];
@@ -154,11 +156,11 @@ struct Ways {
   COURANT_INLINE Pack across(const EightEdges<Dim>& edges) const {
     return is_positive(max(0 - edges.height[0] * there[0], 0 - edges.height[1] * there[1]));
   }
-  /// What i is off the image of j by a wall, squared.
+  /// Squared distance of i from the image of j behind a wall.
   COURANT_INLINE Pack far2(const EightEdges<Dim>& edges, int k, const Pack& r2, const Pack& tiny) const {
     return max(r2 + 4 * edges.height[k] * there[k], tiny);
   }
-  /// As in WallMirrorArrays::ways.
+  /// Bits of WallMirrorArrays::edge_paths.
   COURANT_INLINE std::uint32_t note(const EightEdges<Dim>& edges, const Pack& r2, const Pack& reach2,
                                     const Pack& tiny) const {
     const Pack other = r2 - 2 * tiny;
@@ -180,10 +182,10 @@ struct Ways {
   }
 };
 
-/// Which ways of a pair count for forces.
+/// Paths of a pair that enter the forces.
 struct Counted {
-  Pack now;      ///< 1: as they are now, 0: as they were in the middle of the step
-  Pack seen[3];  ///< then: 1 for each way there was, by a wall and hidden, which goes over no edge
+  Pack now;      ///< 1: at the end of the step, 0: as in the middle of the step
+  Pack seen[3];  ///< in that case 1 for each path found: by each wall, and hidden
   template <int Dim>
   Counted(const EightEdges<Dim>& edges, std::uint32_t known, const Pack& near) : now(near) {
     for (int k = 0; k < 3; ++k) seen[k] = Pack::zero();
@@ -197,19 +199,19 @@ struct Counted {
     now = now * Pack::load(as_now);
     for (int k = 0; k < 3; ++k) seen[k] = Pack::load(as_then[k]);
   }
-  COURANT_INLINE Passing of(const Passing& way, int k) const {
-    Passing out = way;
-    out.share = now * way.share + seen[k], out.by_start = now * way.by_start, out.by_end = now * way.by_end;
+  COURANT_INLINE Passing of(const Passing& ray, int k) const {
+    Passing out = ray;
+    out.share = now * ray.share + seen[k], out.by_start = now * ray.by_start, out.by_end = now * ray.by_end;
     return out;
   }
 };
 
-/// What ways do to an edge that moves and its walls (WallEdgePull), but for the volume of i.
+/// Reactions of paths on a moving edge and its walls (WallEdgeReaction), without the volume of i.
 template <int Dim>
-struct EightPulls {
+struct EightReactions {
   Pack push[2], inward[2], along[2], edge[2][2], edge_along[2][2];
   Difference<Dim> axis;  ///< the edge's direction
-  explicit EightPulls(const EightEdges<Dim>& edges) {
+  explicit EightReactions(const EightEdges<Dim>& edges) {
     for (int k = 0; k < 2; ++k) {
       push[k] = inward[k] = along[k] = Pack::zero();
       for (int c = 0; c < 2; ++c) edge[k][c] = edge_along[k][c] = Pack::zero();
@@ -221,23 +223,23 @@ struct EightPulls {
       axis.z = n.x * m.y - n.y * m.x;
     }
   }
-  /// `slope`: by which, times d, i is pushed; `share`: the kernel that the share of the way is before.
-  COURANT_INLINE void add_image(const EightEdges<Dim>& edges, const Ways<Dim>& ways, int k,
-                                const Passing& way, const Difference<Dim>& d, const Pack& slope,
+  /// `slope`: force on i is slope times d; `share`: factor of the gradient of the share.
+  COURANT_INLINE void add_image(const EightEdges<Dim>& edges, const EdgePaths<Dim>& paths, int k,
+                                const Passing& ray, const Difference<Dim>& d, const Pack& slope,
                                 const Pack& share) {
-    const Pack &h = edges.height[k], &there = ways.there[k];
-    const Pack to_j = ways.inward[k] - edges.inward[k], turned = share * way.by_end, z = 0 - dot(axis, d);
-    push[k] += turned * way.over - slope * (h + there);
-    inward[k] += turned * (way.over * to_j + there * way.into) - slope * h * to_j;
-    along[k] += (turned * way.over - slope * h) * z;
-    add_edge(k, way, Pack::of(-0.5) * share, z);
+    const Pack &h = edges.height[k], &there = paths.there[k];
+    const Pack to_j = paths.inward[k] - edges.inward[k], turned = share * ray.by_end, z = 0 - dot(axis, d);
+    push[k] += turned * ray.over - slope * (h + there);
+    inward[k] += turned * (ray.over * to_j + there * ray.into) - slope * h * to_j;
+    along[k] += (turned * ray.over - slope * h) * z;
+    add_edge(k, ray, Pack::of(-0.5) * share, z);
   }
-  COURANT_INLINE void add_edge(int k, const Passing& way, const Pack& share, const Pack& z) {
-    const Pack both = share * (way.by_start + way.by_end), at_end = share * way.by_end * z;
-    edge[k][0] += both * way.over, edge[k][1] += both * way.into;
-    edge_along[k][0] += at_end * way.over, edge_along[k][1] += at_end * way.into;
+  COURANT_INLINE void add_edge(int k, const Passing& ray, const Pack& share, const Pack& z) {
+    const Pack both = share * (ray.by_start + ray.by_end), at_end = share * ray.by_end * z;
+    edge[k][0] += both * ray.over, edge[k][1] += both * ray.into;
+    edge_along[k][0] += at_end * ray.over, edge_along[k][1] += at_end * ray.into;
   }
-  void give(const EightEdges<Dim>& edges, const Pack& factor, WallEdgePull* to, Index count) const {
+  void give(const EightEdges<Dim>& edges, const Pack& factor, WallEdgeReaction* to, Index count) const {
     Real of[14][lanes];
     for (int k = 0; k < 2; ++k) {
       (factor * push[k]).store(of[k]), (factor * inward[k]).store(of[2 + k]);
@@ -265,12 +267,12 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
   const Pack reach2 = Pack::of(power<2>(kernel.support * a.h)), tiny = Pack::of(tiny_distance2 * a.h * a.h);
   const Real slope_norm = gradient_norm<Dim>(kernel, a.h), norm = shape_norm<Dim>(kernel, a.h);
   EightEdges<Dim> edges(a, i, count, half, true);
-  Places<Dim> xi(a.x, i, count);
-  const Places<Dim> vi(a.v, i, count);
+  Positions<Dim> xi(a.x, i, count);
+  const Positions<Dim> vi(a.v, i, count);
   xi.x -= half * vi.x, xi.y -= half * vi.y;
   if constexpr (Dim == 3) xi.z -= half * vi.z;
-  edges.stand_at(xi);
-  Pack speed[2], inward_speed[2];  // over the body
+  edges.set_heights(xi);
+  Pack speed[2], inward_speed[2];  // relative to the body
   for (int k = 0; k < 2; ++k) {
     speed[k] = edges.along(edges.n[k], vi) - dot(edges.n[k], edges.v);
     inward_speed[k] = edges.along(edges.m[k], vi) - dot(edges.m[k], edges.v);
@@ -283,42 +285,42 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
     d.x = xi.x - (a.x[0][j] - half * a.v[0][j]), d.y = xi.y - (a.x[1][j] - half * a.v[1][j]);
     if constexpr (Dim == 3) d.z = xi.z - (a.x[2][j] - half * a.v[2][j]);
     const Pack r2 = dot_plus(d, d, tiny);
-    if (edges.move) a.ways[entry] = 0;
-    if (!any_less(r2, reach2)) continue;  // ways of such pairs are not looked for
+    if (edges.move) a.edge_paths[entry] = 0;
+    if (!any_less(r2, reach2)) continue;  // such pairs have no paths in range
     if (edges.move) edges.take_off(u, d);
-    const Ways<Dim> ways(edges, d, a.width, tiny);
-    if (edges.move) a.ways[entry] = ways.note(edges, r2, reach2, tiny);
+    const EdgePaths<Dim> paths(edges, d, a.width, tiny);
+    if (edges.move) a.edge_paths[entry] = paths.note(edges, r2, reach2, tiny);
     const Pack u_dot_d = dot(u, d);
     Pack change = Pack::zero();
     const Pack within = a.V[j] * is_positive(reach2 - r2);
-    const auto add = [&](const Passing& way, const Pack& far2, const Pack& along, const Pack& share_rate,
+    const auto add = [&](const Passing& ray, const Pack& far2, const Pack& along, const Pack& share_rate,
                          const Pack& exists, int kind) {
       const Pack rinv = rsqrt(far2), R = far2 * rinv * hinv, W = norm * kernel.shape(R);
-      change += slope_norm * way.share * gradient_shape(kernel, R, rinv) * along +
+      change += slope_norm * ray.share * gradient_shape(kernel, R, rinv) * along +
                 kept * (1 - a.edge_loss[j]) * W * share_rate;
-      passing[kind] += within * exists * W * max(way.by_start, 0 - way.by_start);
+      passing[kind] += within * exists * W * max(ray.by_start, 0 - ray.by_start);
     };
     for (int k = 0; k < 2; ++k) {
-      const Passing& way = ways.by[k];
-      if (!any_less(Pack::zero(), way.share)) continue;
+      const Passing& ray = paths.by[k];
+      if (!any_less(Pack::zero(), ray.share)) continue;
       const Pack of_j = speed[k] - dot(edges.n[k], u), inward_of_j = inward_speed[k] - dot(edges.m[k], u);
-      add(way, ways.far2(edges, k, r2, tiny),
-          u_dot_d + 2 * (speed[k] * ways.there[k] + of_j * edges.height[k]),
-          way.by_start * (way.over * speed[k] + way.into * inward_speed[k]) +
-              way.by_end * (way.into * inward_of_j - way.over * of_j),
+      add(ray, paths.far2(edges, k, r2, tiny),
+          u_dot_d + 2 * (speed[k] * paths.there[k] + of_j * edges.height[k]),
+          ray.by_start * (ray.over * speed[k] + ray.into * inward_speed[k]) +
+              ray.by_end * (ray.into * inward_of_j - ray.over * of_j),
           Pack::of(1), 0);
     }
-    const Passing& way = ways.straight;
-    if (any_less(Pack::zero(), way.share)) {
-      const Pack thrown_back = change;
+    const Passing& ray = paths.straight;
+    if (any_less(Pack::zero(), ray.share)) {
+      const Pack reflected = change;
       const Pack of_j = speed[0] - dot(edges.n[0], u), inward_of_j = inward_speed[0] - dot(edges.m[0], u);
-      const Pack other = is_positive(r2 - 2 * tiny);  // none goes to oneself
+      const Pack other = is_positive(r2 - 2 * tiny);  // a particle has no straight path to itself
       change = Pack::zero();
-      add(way, r2, u_dot_d,
-          way.by_start * (way.over * speed[0] + way.into * inward_speed[0]) +
-              way.by_end * (way.over * of_j + way.into * inward_of_j),
-          other * ways.across(edges), 1);
-      change = thrown_back - other * change;
+      add(ray, r2, u_dot_d,
+          ray.by_start * (ray.over * speed[0] + ray.into * inward_speed[0]) +
+              ray.by_end * (ray.over * of_j + ray.into * inward_of_j),
+          other * paths.across(edges), 1);
+      change = reflected - other * change;
     }
     div += within * change;
   }
@@ -331,7 +333,7 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
   }
 }
 
-/// Adds what ways do to particles; `hidden` is taken off, as no wall's.
+/// Adds the contributions of paths to particles; the hidden part is subtracted and is not a wall force.
 template <int Dim>
 void give_forces(const WallMirrorArrays& a, const EightEdges<Dim>& edges, Index i, Index count,
                  const Pack& factor, const Sum<Dim>& force, const Sum<Dim>& hidden, const Pack& diffusion) {
@@ -357,59 +359,59 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
   const Pack reach2 = Pack::of(power<2>(kernel.support * a.h)), tiny = Pack::of(tiny_distance2 * a.h * a.h);
   const Real slope_norm = gradient_norm<Dim>(kernel, a.h), norm = shape_norm<Dim>(kernel, a.h);
   EightEdges<Dim> edges(a, i, count, 0, false);
-  const Places<Dim> xi(a.x, i, count);
-  edges.stand_at(xi);
+  const Positions<Dim> xi(a.x, i, count);
+  edges.set_heights(xi);
   const bool diffuses = a.diffusion != nullptr;
   const Pack pi = Pack::load(a.p + i, count), rho = Pack::load(a.rho + i, count),
              phi = diffuses ? Pack::load(a.potential + i, count) : Pack::zero();
   Sum<Dim> force, hidden;
   Pack over[2] = {Pack::zero(), Pack::zero()}, into[2] = {Pack::zero(), Pack::zero()},
        diffusion = Pack::zero();
-  EightPulls<Dim> pulls(edges);
+  EightReactions<Dim> reactions(edges);
   const Pack kept = 1 - Pack::load(a.edge_loss + i, count);
   for (Index entry = lists.start[g]; entry < lists.start[g + 1]; ++entry) {
     const std::ptrdiff_t j = lists.list[entry];
     const Difference<Dim> d(xi, a.x, j);
     const Pack r2 = dot_plus(d, d, tiny);
-    const std::uint32_t known = edges.move ? a.ways[entry] : 0;
+    const std::uint32_t known = edges.move ? a.edge_paths[entry] : 0;
     if (known == 0 && !any_less(r2, reach2)) continue;
-    const Ways<Dim> ways(edges, d, a.width, tiny);
+    const EdgePaths<Dim> paths(edges, d, a.width, tiny);
     const Counted counted(edges, known, is_positive(reach2 - r2));
     const Pack volume = Pack::of(a.V[j]), pressure = volume * (pi + a.p[j]);
     Pack all = Pack::zero();
     for (int k = 0; k < 2; ++k) {
-      const Passing way = counted.of(ways.by[k], k);
-      if (!any_less(Pack::zero(), way.share)) continue;
-      const Pack far2 = ways.far2(edges, k, r2, tiny), rinv = rsqrt(far2), R = far2 * rinv * hinv,
-                 slope = slope_norm * way.share * gradient_shape(kernel, R, rinv),
+      const Passing ray = counted.of(paths.by[k], k);
+      if (!any_less(Pack::zero(), ray.share)) continue;
+      const Pack far2 = paths.far2(edges, k, r2, tiny), rinv = rsqrt(far2), R = far2 * rinv * hinv,
+                 slope = slope_norm * ray.share * gradient_shape(kernel, R, rinv),
                  share = kept * (1 - a.edge_loss[j]) * norm * kernel.shape(R),
-                 share_slope = share * way.by_start;
+                 share_slope = share * ray.by_start;
       force.add(pressure * slope, d);
-      over[k] += pressure * (2 * slope * ways.there[k] + share_slope * way.over);
-      into[k] += pressure * share_slope * way.into;
+      over[k] += pressure * (2 * slope * paths.there[k] + share_slope * ray.over);
+      into[k] += pressure * share_slope * ray.into;
       all += slope;
-      if (edges.move) pulls.add_image(edges, ways, k, way, d, pressure * slope, pressure * share);
+      if (edges.move) reactions.add_image(edges, paths, k, ray, d, pressure * slope, pressure * share);
     }
-    const Passing way = counted.of(ways.straight, 2);
-    if (any_less(Pack::zero(), way.share)) {
+    const Passing ray = counted.of(paths.straight, 2);
+    if (any_less(Pack::zero(), ray.share)) {
       const Pack rinv = rsqrt(r2), R = r2 * rinv * hinv, other = is_positive(r2 - 2 * tiny),
-                 slope = other * (slope_norm * way.share * gradient_shape(kernel, R, rinv)),
+                 slope = other * (slope_norm * ray.share * gradient_shape(kernel, R, rinv)),
                  share = kept * (1 - a.edge_loss[j]) * other * (norm * kernel.shape(R)),
-                 share_slope = share * way.by_start;
+                 share_slope = share * ray.by_start;
       hidden.add(pressure * slope, d);
-      over[0] -= pressure * share_slope * way.over, into[0] -= pressure * share_slope * way.into;
+      over[0] -= pressure * share_slope * ray.over, into[0] -= pressure * share_slope * ray.into;
       all -= slope;
-      if (edges.move) pulls.add_edge(0, way, 0.5 * pressure * share, 0 - dot(pulls.axis, d));
+      if (edges.move) reactions.add_edge(0, ray, 0.5 * pressure * share, 0 - dot(reactions.axis, d));
     }
     if (diffuses) diffusion += volume * all * (a.p[j] - pi + rho * (a.potential[j] - phi));
   }
   for (int k = 0; k < 2; ++k) force.add(over[k], edges.n[k]), force.add(into[k], edges.m[k]);
   const Pack factor = 0 - Pack::load(a.V + i, count);
-  if (edges.move) pulls.give(edges, factor, a.pull + (i - lists.begin), count);
+  if (edges.move) reactions.give(edges, factor, a.reaction + (i - lists.begin), count);
   give_forces(a, edges, i, count, factor, force, hidden, -2 * a.delta * a.h * diffusion);
 }
 
-/// Calls the loop for groups of eight any of which has an edge.
+/// Calls the loop for groups of eight with an edge.
 template <class Kernel, int Dim, bool Rates>
 void loop(const WallMirrorArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);

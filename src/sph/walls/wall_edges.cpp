@@ -1,4 +1,4 @@
-// Edges that are all that somebody sees.
+// Isolated edges.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 
 namespace courant {
 
-/// Whether two walls meet there, turn away from each other, and enclose a right angle or a wider one.
+/// Whether two walls meet there in a convex corner and enclose 90 degrees or more.
 bool WallPaths::is_one_edge(const Ending& one, const Ending& other) const {
   const Real near = 1e-6 * surface_.reach();
   const Vec &a = one.edge->from, &b = one.edge->to, &c = other.edge->from, &d = other.edge->to;
@@ -15,11 +15,11 @@ bool WallPaths::is_one_edge(const Ending& one, const Ending& other) const {
   if (along.cross(c - a).norm() > near || along.cross(d - a).norm() > near) return false;
   const Vec &into = face(one.edge->face).inward[one.edge->edge],
             &other_into = face(other.edge->face).inward[other.edge->edge];
-  constexpr Real level_walls = 0.1;  // sine of the angle between walls that are two
-  return into.dot(other_into) < upright && into.cross(other_into).norm() > level_walls;
+  constexpr Real level_walls = 0.1;  // sine of the least angle between two walls
+  return into.dot(other_into) < orthogonal && into.cross(other_into).norm() > level_walls;
 }
 
-/// All walls near by must be held, or must be of one body that moves and none of them an image.
+/// All walls in range must be fixed, or belong to one moving body without images.
 std::optional<WallPaths::LoneEdge> WallPaths::lone_edge_about(const Sheets& sheets, const Vec& x, Real around,
                                                               bool moves) const {
   std::vector<Ending> near;
@@ -30,7 +30,7 @@ std::optional<WallPaths::LoneEdge> WallPaths::lone_edge_about(const Sheets& shee
     if (moves && std::any_of(s.faces.begin(), s.faces.end(), [&](Index f) { return face(f).image_of >= 0; }))
       return {};
     near.push_back({&s, nullptr});
-    for (const Brink& edge : s.edges) {
+    for (const Border& edge : s.edges) {
       if (distance_to(x, edge.from, edge.to) > around) continue;
       const bool goes_on = dim_ == 2 || std::min((edge.from - x).norm(), (edge.to - x).norm()) > around;
       if (near.back().edge || !goes_on) return {};
@@ -54,12 +54,12 @@ std::optional<WallPaths::LoneEdge> WallPaths::lone_edge_about(const Sheets& shee
   return out;
 }
 
-WallEdge WallPaths::placed(const LoneEdge& edge, const Sheets& sheets) const {
+WallEdge WallPaths::current(const LoneEdge& edge, const Sheets& sheets) const {
   WallEdge out;
   out.walls = edge.walls;
   for (int k = 0; k < edge.walls; ++k) {
     const Sheet& s = sheets[edge.sheet[k]];
-    const Brink& brink = s.edges[edge.edge[k]];
+    const Border& brink = s.edges[edge.edge[k]];
     const Vec n = edge.side[k] * s.n, m = face(brink.face).inward[brink.edge];
     for (int c = 0; c < 3; ++c) out.n[k][c] = n[c], out.m[k][c] = m[c];
     if (k > 0) continue;
@@ -75,7 +75,7 @@ WallEdge WallPaths::placed(const LoneEdge& edge, const Sheets& sheets) const {
 std::optional<WallEdge> WallPaths::edge_about(const Sheets& sheets, const Vec& at, Real sight) const {
   const auto edge = lone_edge_about(sheets, surface_.in_plane(at), sight + 0.5 * width_, false);
   if (!edge) return {};
-  return placed(*edge, sheets);
+  return current(*edge, sheets);
 }
 
 std::optional<WallPaths::LoneEdge> WallPaths::moving_edge_about(const Sheets& sheets, const Vec& at,
@@ -92,38 +92,38 @@ void WallImages::find_moving_edge(const Particles& p, Index i) {
   edges_[k] = &*own_edges_[k];
 }
 
-/// Brings edges that move to where they are in the middle of the step.
-void WallImages::place_edges_in_middle(Index begin, Index end, Block& block) {
+/// Updates moving edges to the middle of the step.
+void WallImages::update_edges_in_middle(Index begin, Index end, Block& block) {
   block.has_moving_edges = false;
   for (Index i = begin; any_moves_ && i < end; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!moving_edges_[k]) continue;
-    place_sheets(i, block);
-    *own_edges_[k] = in_middle_->placed(*moving_edges_[k], block.in_middle);
+    update_sheets(i, block);
+    *own_edges_[k] = in_middle_->current(*moving_edges_[k], block.in_middle);
     block.has_moving_edges = true;
   }
   if (!block.has_moving_edges) return;
-  block.edge_pulls.resize(block_size);
-  block.ways.resize(static_cast<std::size_t>(neighbours_->entries(begin / block_size)));
+  block.edge_reactions.resize(block_size);
+  block.edge_paths.resize(static_cast<std::size_t>(neighbours_->entries(begin / block_size)));
 }
 
-/// And to where they are at its end.
-void WallImages::place_edges_at_end(Index begin, Index end, const Block& block) {
+/// Updates moving edges to the end of the step.
+void WallImages::update_edges_at_end(Index begin, Index end, const Block& block) {
   if (!block.has_moving_edges) return;
   for (Index i = begin; i < end; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (moving_edges_[k]) *own_edges_[k] = at_end().placed(*moving_edges_[k], sheets_[k]);
+    if (moving_edges_[k]) *own_edges_[k] = at_end().current(*moving_edges_[k], sheets_[k]);
   }
 }
 
-/// Gives edges that move and their walls what loops have for them.
+/// Adds the reactions of the loops to moving edges and their walls.
 void WallImages::react_of_edges(const Particles& p, Index begin, Index end, Block& block) const {
   if (!block.has_moving_edges) return;
   for (Index i = begin; i < end; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    if (!moving_edges_[at] || !in_room(i)) continue;
+    if (!moving_edges_[at] || !in_sub_domain(i)) continue;
     const WallEdge& edge = *edges_[at];
-    const WallEdgePull& pull = block.edge_pulls[static_cast<std::size_t>(i - begin)];
+    const WallEdgeReaction& derivative = block.edge_reactions[static_cast<std::size_t>(i - begin)];
     const auto vec = [](const Real(&of)[3]) { return Vec(of[0], of[1], of[2]); };
     const Vec x = surface().in_plane(p.x.vec(i)) + at_end().shift(), from = vec(edge.at),
               axis = vec(edge.n[0]).cross(vec(edge.m[0])),
@@ -132,12 +132,13 @@ void WallImages::react_of_edges(const Particles& p, Index begin, Index end, Bloc
     for (int k = 0; k < edge.walls; ++k) {
       const WallPaths::Sheet& sheet = sheets_[at][moving_edges_[at]->sheet[k]];
       const Vec n = vec(edge.n[k]), m = vec(edge.m[k]), foot = x - n.dot(x - from) * n;
-      WallPull normal{.face = at_end().face_at(sheet, foot), .at = foot, .force = pull.push[k] * n};
-      normal.lever = pull.inward[k] * m + pull.along[k] * axis;
+      WallDerivative normal{
+          .face = at_end().face_at(sheet, foot), .at = foot, .force = derivative.push[k] * n};
+      normal.lever = derivative.inward[k] * m + derivative.along[k] * axis;
       if (at_end().face(normal.face).n.dot(n) < 0) normal.lever = -normal.lever;
       give(normal, 1, block);
-      const Vec force = pull.edge[k][0] * n + pull.edge[k][1] * m,
-                farther = (pull.edge_along[k][0] * n + pull.edge_along[k][1] * m) / p.h[i];
+      const Vec force = derivative.edge[k][0] * n + derivative.edge[k][1] * m,
+                farther = (derivative.edge_along[k][0] * n + derivative.edge_along[k][1] * m) / p.h[i];
       const Index face = at_end().face_at(sheet, place);
       give({.face = face, .at = place, .force = force - farther}, 1, block);
       if (!farther.isZero()) give({.face = face, .at = place + p.h[i] * axis, .force = farther}, 1, block);

@@ -17,7 +17,7 @@ Index WallPaths::moving_flat_about(const Sheets& sheets, const Vec& at, Real sig
     only = &s;
   }
   if (!only || !is_inside(*only, only->image(x) + only->height(x) * only->n)) return -1;
-  for (const Brink& edge : only->edges) {
+  for (const Border& edge : only->edges) {
     if (distance_to(x, edge.from, edge.to) <= around) return -1;
   }
   return only->face;
@@ -30,8 +30,7 @@ void WallImages::find_flat(const Particles& p, Index i) {
   flats_[static_cast<std::size_t>(i)] = at_end().moving_flat_about(sheets(i), x, sight);
 }
 
-/// The plane of a flat wall, its normal towards who sees it, for positions that are looked at `aside` of
-/// where they are.
+/// The plane of a flat wall, with its normal towards the particle, for positions offset by `aside`.
 struct WallImages::Flat {
   Vec n;
   Real offset, side;
@@ -42,7 +41,7 @@ struct WallImages::Flat {
   Real height(const Vec& x) const { return n.dot(x) - offset; }
 };
 
-/// Whether all that particle i may see are on its side of the wall in the middle of the step.
+/// Whether all particles in range of particle i are on its side of the wall in the middle of the step.
 bool WallImages::has_flat_to_itself(const Particles& p, Index i) const {
   const Index f = flats_[static_cast<std::size_t>(i)];
   if (f < 0) return false;
@@ -57,8 +56,7 @@ bool WallImages::has_flat_to_itself(const Particles& p, Index i) const {
   });
 }
 
-/// As in a sub-domain at rest, with velocities less those of the body: what moves with it does not come
-/// nearer.
+/// As in a sub-domain at rest, with velocities relative to the body.
 void WallImages::add_flat_rate(Particles& p, Index i) const {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Index f = flats_[static_cast<std::size_t>(i)];
@@ -78,15 +76,15 @@ void WallImages::add_flat_rate(Particles& p, Index i) const {
   p.drhodt[i] += p.rho[i] * rate;
 }
 
-/// The wall gets of each path along its normal, where that meets it, what the particle gets: the other half
-/// by the path back.
+/// The wall receives the normal reaction of each path at the point where the path meets it: half here,
+/// half by the reverse path.
 void WallImages::add_flat_forces(Particles& p, Index i, Block& block) const {
   const Index f = flats_[static_cast<std::size_t>(i)];
   const Vec x = p.x.vec(i);
   const Real h = p.h[i], reach2 = power<2>(kernel_->support * h);
   const Flat flat(at_end().face(f), x, at_end().shift());
   const Real height = flat.height(x);
-  // whoever is within reach in the middle of the step, as others see it
+  // particles in range in the middle of the step, as in other passes
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Vec earlier = in_the_middle(i);
   const Flat before(in_middle_->face(f), earlier, at_end().shift());

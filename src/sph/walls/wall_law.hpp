@@ -1,5 +1,5 @@
 #pragma once
-// The velocity near a wall that rubs.
+// Law of the wall: velocity near a wall with friction.
 #include <algorithm>
 #include <cmath>
 
@@ -7,20 +7,20 @@
 
 namespace courant {
 
-/// How a wall rubs: by a constant coefficient, by the logarithmic law, or by holding water fast.
+/// Friction law of a wall: constant coefficient, logarithmic law, or no slip.
 struct WallFriction {
   Real cf = -1;          ///< shear stress over rho v^2/2 [-]; < 0: the wall does not support
   bool log_law = false;  ///< LAW 1: by distance and velocity
-  Real ks = 0;           ///< equivalent roughness of sand [L]
-  bool no_slip = false;  ///< LAW 2: water at the wall has its velocity, and viscosity acts
+  Real ks = 0;           ///< equivalent sand roughness [L]
+  bool no_slip = false;  ///< LAW 2: no slip, with viscosity
   bool rubs() const { return cf > 0 || log_law; }
 };
 
 inline constexpr Real von_karman = 0.41;
 
-/// A particle has its velocity no nearer to a wall than this share of the spacing, half of where the lowest
-/// row is at rest: what the velocity is a mean over reaches farther, and a particle that passes an edge
-/// crosses the plane of a wall at no distance at all.
+/// Least distance of a particle from a wall over the spacing, half of that of the lowest row at rest: the
+/// velocity is a mean over a wider range, and a particle that passes an edge crosses the plane of the wall
+/// at zero distance.
 inline constexpr Real least_distance = 0.25;
 
 /// Friction velocity u* [L/T] of a wall along which the mean velocity at distance y is u >= 0: from

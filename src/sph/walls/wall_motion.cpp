@@ -53,9 +53,9 @@ void WallSurface::take_along(std::vector<Face>& faces, std::vector<WallMotion>& 
     if (face.body < 0 || face.image_of < 0) continue;
     const Face& seen = faces[face.image_of];
     const WallMotion& of = motions[face.image_of];
-    for (std::size_t e = 0; e < 4; ++e) face.x[e] = place_behind(face.behind, face.way, seen.x[e]);
+    for (std::size_t e = 0; e < 4; ++e) face.x[e] = position_behind(face.behind, face.image_side, seen.x[e]);
     face.find_plane();
-    motions[f] = motion_behind(face.behind, face.way, of);
+    motions[f] = motion_behind(face.behind, face.image_side, of);
   }
 }
 

@@ -1,4 +1,4 @@
-// Sums over walls: in closed form where they are those of a box, else over pieces.
+// Sums over walls: closed form for sub-domains, else sums over points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,25 +9,25 @@ namespace courant {
 
 namespace {
 
-Vec normal(const WallRoom& room, int wall) {
-  return Vec(room.n[wall][0], room.n[wall][1], room.n[wall][2]);
+Vec normal(const WallSubDomain& domain, int wall) {
+  return Vec(domain.n[wall][0], domain.n[wall][1], domain.n[wall][2]);
 }
 
-/// How far something is from the walls of a sub-domain, in h; nothing is behind them.
+/// Distances from the walls of a sub-domain, in h, at least 0.
 struct Depths {
   std::array<Real, 3> of{};
   int walls;
   Real operator[](int k) const { return of[static_cast<std::size_t>(k)]; }
-  Depths(const WallRoom& room, const Vec& x, Real h) : walls(room.walls) {
+  Depths(const WallSubDomain& domain, const Vec& x, Real h) : walls(domain.walls) {
     for (int k = 0; k < walls; ++k)
-      of[static_cast<std::size_t>(k)] = std::max((normal(room, k).dot(x) - room.offset[k]) / h, Real(0));
+      of[static_cast<std::size_t>(k)] = std::max((normal(domain, k).dot(x) - domain.offset[k]) / h, Real(0));
   }
-  /// The other walls of one, where there are three.
+  /// The other walls, if there are three.
   int next(int k) const { return (k + 1) % walls; }
   int last(int k) const { return (k + walls - 1) % walls; }
 };
 
-/// int W dS over a wall, h = 1: of the whole plane less what is beyond the others.
+/// int W dS over a wall, h = 1: the whole plane less the parts beyond the other walls.
 Real whole(const WallTables& planes, const WallCornerTables& corners, const Depths& d, int k) {
   Real out = planes.plane(d[k]);
   if (!(out > 0) || d.walls == 1) return out;
@@ -68,7 +68,7 @@ WallSupport::Sums WallSupport::sums_over_points(const Particles& p, Index i, Rea
   const Real h = p.h[i];
   const Vec x = p.x.vec(i), v = p.v.vec(i);
   Sums s;
-  // what was in sight half a step ago, too
+  // including walls in sight half a step ago
   const Real within = any_moves_ ? surface_->reach() : sight(p, i) + std::abs(half_step) * v.norm();
   for_each_seen(p, i, within, [&](const WallPoint& q, const Vec& away) {
     const Vec d = q.x - x, u = v - q.v;
@@ -107,42 +107,42 @@ WallSupport::Sums WallSupport::sums_over_plane(const Particles& p, Index i, Inde
   return s;
 }
 
-/// Of the kernel's integral, what lies in the shadow of a piece of wall. Nearer than the pieces are large,
-/// r is that of their edge.
+/// Part of the kernel's integral in the shadow of a wall point. Closer than the point spacing, r is
+/// measured to the edge of the piece.
 Real WallSupport::volume_behind(Real h, const Vec& d, const Vec& away) const {
   const Real r = std::max(d.norm(), 0.3 * h / points_per_h), R = r / h;
   return away.dot(d) / power<2>(r) * table_.tail(R) / (dim_ == 2 ? 1 : r);
 }
 
-WallSupport::Sums WallSupport::sums_in_room(const Particles& p, Index i, const WallRoom& room,
-                                            Real half_step) const {
+WallSupport::Sums WallSupport::sums_in_sub_domain(const Particles& p, Index i, const WallSubDomain& domain,
+                                                  Real half_step) const {
   const Real h = p.h[i];
   const Vec x = p.x.vec(i), v = p.v.vec(i);
-  const Depths now(room, x, h), earlier(room, x - half_step * v, h);
+  const Depths now(domain, x, h), earlier(domain, x - half_step * v, h);
   Sums s;
   s.fill = behind(table_, *corners_, now);
-  for (int k = 0; k < room.walls; ++k) {
-    const Vec away = -normal(room, k);
+  for (int k = 0; k < domain.walls; ++k) {
+    const Vec away = -normal(domain, k);
     const Real W = whole(table_, *corners_, now, k) / h, before = whole(table_, *corners_, earlier, k) / h;
     s.slope += W * away;
     s.squeeze += before * v.dot(away);
-    if (rubs_) s.rubbing += friction_coefficient(p, i, room.face[k], Vec::Zero()) * W;
+    if (rubs_) s.rubbing += friction_coefficient(p, i, domain.face[k], Vec::Zero()) * W;
     if (!moment_) continue;
     s.moment += now[k] * h * W * away * away.transpose();
-    for (int l = 0; l < room.walls; ++l)
-      if (l != k) s.moment += lever(*corners_, now, k, l) * normal(room, l) * away.transpose();
+    for (int l = 0; l < domain.walls; ++l)
+      if (l != k) s.moment += lever(*corners_, now, k, l) * normal(domain, l) * away.transpose();
     s.gradient += before * (v * away.transpose() + away * v.transpose());
   }
   if (moment_) s.moment = 0.5 * (s.moment + s.moment.transpose().eval()) + s.fill * Matrix::Identity();
   return s;
 }
 
-/// Stress over viscosity and velocity by all walls of the sub-domain that hold water fast.
-Real WallSupport::hold_in_room(const Particles& p, Index i, const WallRoom& room) const {
-  const Depths depths(room, p.x.vec(i), p.h[i]);
+/// Shear stress over viscosity and velocity by all no-slip walls of the sub-domain.
+Real WallSupport::hold_in_sub_domain(const Particles& p, Index i, const WallSubDomain& domain) const {
+  const Depths depths(domain, p.x.vec(i), p.h[i]);
   Real out = 0;
-  for (int k = 0; k < room.walls; ++k)
-    if (friction_of(room.face[k]).no_slip)
+  for (int k = 0; k < domain.walls; ++k)
+    if (friction_of(domain.face[k]).no_slip)
       out += 2 * whole(table_, *corners_, depths, k) / (p.h[i] * std::max(depths[k] * p.h[i], least_y_));
   return out;
 }

@@ -1,4 +1,4 @@
-// What walls of shells add to sums that they cut off, and their skin friction.
+// Wall support of shells, and their skin friction.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -61,17 +61,17 @@ WallSupport::WallSupport(const SphSettings& s, World& world, const Neighbours& n
 void WallSupport::rebuild(const World& world) {
   const Real spacing = std::max(least_h_ / points_per_h, most_h_ / most_points_per_h);
   const Real reach = table_.support() * most_h_ + neighbours_.largest_skin() + past_edges_;
-  std::optional<Lookouts> from;  // a surface of every step is that of what water can see
+  std::optional<OccupiedCells> from;  // rebuilt in each step, only for walls in sight of water
   if (any_moves_ && world.particles.active > 0) from.emplace(world.particles, reach, walls_.planes);
   const bool stays = !any_moves_ && !evolving_h_;
   const Real width = walls_.images ? WallPaths::usual_width * spacing_ : 0,
-             beyond = 2 * WallOutlooks::half_of(spacing_, dim_) + 0.5 * width + spacing;
-  outlooks_.reset();
+             beyond = 2 * WallVisibility::half_of(spacing_, dim_) + 0.5 * width + spacing;
+  visibility_.reset();
   surface_.emplace(world, walls_.segments, spacing, reach, walls_.planes, from ? &*from : nullptr,
                    &walls_.belts, stays ? beyond : 0);
   if (stays)
-    outlooks_.emplace(*surface_, width, spacing_, table_.support() * most_h_ + neighbours_.largest_skin(),
-                      [this](Index f, Index other) { return are_alike(f, other); });
+    visibility_.emplace(*surface_, width, spacing_, table_.support() * most_h_ + neighbours_.largest_skin(),
+                        [this](Index f, Index other) { return are_alike(f, other); });
   for (Index f = 0; f < surface_->faces(); ++f) {
     const WallFriction &law = friction_of(f), &first = friction_of(0);
     one_law_ &= law.cf == first.cf && law.log_law == first.log_law && law.ks == first.ks &&
@@ -113,8 +113,8 @@ void WallSupport::block(World& world, const Clock& clock, Index begin, Index end
     if (any_moves_ && !image_force_ && (view_[i] = look(p, i)) == nothing) set(i, {});
     if (view_[i] == nothing || !(integrates_ || rubs_)) continue;
     const Real half_step = 0.5 * clock.dt_old;
-    const WallRoom* const room = this->room(i);
-    const Sums sums = room            ? sums_in_room(p, i, *room, half_step)
+    const WallSubDomain* const domain = this->sub_domain(i);
+    const Sums sums = domain          ? sums_in_sub_domain(p, i, *domain, half_step)
                       : view_[i] >= 0 ? sums_over_plane(p, i, view_[i], half_step)
                                       : sums_over_points(p, i, half_step);
     set(i, sums);
@@ -142,7 +142,7 @@ Vec WallSupport::force_on(const Particles& p, Index i) const {
   return image_force_ ? Vec(own + image_force_->vec(i)) : own;
 }
 
-/// How fast a wall without slip holds a particle: stress over viscosity and velocity, shared by pieces.
+/// Shear stress of no-slip walls over viscosity and velocity, distributed over points.
 Real WallSupport::held_by(const Particles& p, Index i, const WallPoint& q, const Vec& away) const {
   if (!friction_of(q.face).no_slip) return 0;
   const Real y = std::max(surface_->distance(q.face, p.x.vec(i)), least_y_);
@@ -153,8 +153,9 @@ WallSupport::Hold WallSupport::hold_on(const Particles& p, Index i) const {
   Hold hold;
   if (!viscosity_) return hold;
   const Real muV = p.m[i] / p.rho[i] * (*viscosity_)[i];
-  if (const WallRoom* const room = this->room(i)) {
-    hold.force = -muV * hold_in_room(p, i, *room) * p.v.vec(i), hold.heat = -hold.force.dot(p.v.vec(i));
+  if (const WallSubDomain* const domain = this->sub_domain(i)) {
+    hold.force = -muV * hold_in_sub_domain(p, i, *domain) * p.v.vec(i),
+    hold.heat = -hold.force.dot(p.v.vec(i));
     return hold;
   }
   for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
@@ -211,7 +212,7 @@ void WallSupport::add_reactions(const Particles& p, Index i, std::vector<Reactio
   const auto rubbed_by = [&](const WallPoint& q, const Vec& away, Real W) {
     return friction_coefficient(p, i, q.face, q.v + belt_velocity(q)) * away.norm() * W;
   };
-  Real rubbing = 0;  // now that densities have changed
+  Real rubbing = 0;  // with the updated densities
   if (rubbing_[i] > 0)
     for_each_seen(p, i, sight(p, i), [&](const WallPoint& q, const Vec& away) {
       rubbing += rubbed_by(q, away, kernel(p.h[i], q.x - p.x.vec(i)));
@@ -238,7 +239,7 @@ void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) 
   Particles& p = world.particles;
   if (evolving_h_) measure_h(world);
   if (evolving_h_ || (any_moves_ && image_force_)) rebuild(world);
-  look_for_rooms(p);
+  find_sub_domains(p);
   view_.assign(p.active, nothing);
   for_each(p.active, [&](Index i) {
     view_[i] = look(p, i);
@@ -248,20 +249,21 @@ void WallSupport::refreshed(World& world, const Clock&, std::span<const Index>) 
 
 void WallSupport::relist(World& world) {
   rebuild(world);
-  look_for_rooms(world.particles);
+  find_sub_domains(world.particles);
 }
 
-void WallSupport::look_for_rooms(const Particles& p) {
-  if (!outlooks_) return;
-  outlooks_->look_from(p);
-  rooms_.resize(static_cast<std::size_t>(p.active)), own_rooms_.resize(static_cast<std::size_t>(p.active));
+void WallSupport::find_sub_domains(const Particles& p) {
+  if (!visibility_) return;
+  visibility_->look_from(p);
+  sub_domains_.resize(static_cast<std::size_t>(p.active)),
+      own_sub_domains_.resize(static_cast<std::size_t>(p.active));
   for_each(p.active, [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
-    rooms_[k] = outlooks_->room(i, p.x.vec(i), sight_until_search(p, i), own_rooms_[k]);
+    sub_domains_[k] = visibility_->sub_domain(i, p.x.vec(i), sight_until_search(p, i), own_sub_domains_[k]);
   });
 }
 
-/// Whether faces rub alike, and neither belongs to a belt.
+/// Whether faces have the same friction law and neither is a moving surface.
 bool WallSupport::are_alike(Index face, Index other) const {
   const WallFriction &one = friction_of(face), &two = friction_of(other);
   return one.cf == two.cf && one.log_law == two.log_law && one.ks == two.ks && one.no_slip == two.no_slip &&
@@ -269,7 +271,7 @@ bool WallSupport::are_alike(Index face, Index other) const {
 }
 
 Index WallSupport::look(const Particles& p, Index i) const {
-  if (outlooks_) return outlooks_->of(i).nothing || is_spray(p, i) ? nothing : pieces;
+  if (visibility_) return visibility_->of(i).nothing || is_spray(p, i) ? nothing : pieces;
   const WallSurface::View view = surface_->view_from(p.x.vec(i));
   if (view.nothing || is_spray(p, i)) return nothing;
   return one_law_ && !any_moves_ && view.flat >= 0 ? view.flat : pieces;
@@ -350,7 +352,7 @@ void WallSupport::share_forces(const World& world, const Take& take) {
 void WallSupport::show_forces(World& world) {
   if (!shown_.empty()) return;
   share_forces(world, [&](Index segment, const Vec&, const Vec& force) {
-    if (moves_[static_cast<std::size_t>(segment)]) return;  // it has its force already
+    if (moves_[static_cast<std::size_t>(segment)]) return;  // its force is known already
     world.segments.contact_force->add(segment, force);
     for (const Index n : world.segments.nodes(segment)) world.nodes.f.add(n, 0.25 * force);
     if (shown_.empty() || shown_.back() != segment) shown_.push_back(segment);
@@ -398,8 +400,8 @@ Vec WallSupport::belt_velocity(const WallPoint& q) const {
 
 namespace {
 
-/// Walls that move get what particles lose; the sums over particles are worked out on all threads and given
-/// to the segments one after the other.
+/// Reactions on moving walls; sums over particles run on all threads and are added to the segments in
+/// order.
 class WallSupportForce : public Force {
  public:
   explicit WallSupportForce(std::shared_ptr<WallSupport> support) : support_(std::move(support)) {}

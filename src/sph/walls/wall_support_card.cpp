@@ -1,4 +1,4 @@
-// What *COURANT_WALL_SUPPORT means, and what is refused of it.
+// *COURANT_WALL_SUPPORT: meaning of its fields, and what is refused.
 #include <algorithm>
 #include <cmath>
 
@@ -17,12 +17,12 @@ namespace {
 
 const RegisterKeyword<CourantWallSupport> wall_support_keyword{courant_wall_support_table()};
 
-/// Warns where contact, which acts at half the thickness, does not hold particles half a spacing from the
-/// wall, or where mirrors and ghosts do, holds them before that. Images of wide kernels hardly push particles
-/// off a wall: there contact at half a spacing keeps still water still.
+/// Warns if contact, which acts at half the thickness, does not hold particles half a spacing from the
+/// wall, or, with mirrors and ghosts, holds them before that. Images of wide kernels hardly repel
+/// particles from a wall: contact at half a spacing then keeps still water still.
 void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& deck, const World& world,
                      KernelChoice kernel, Diagnostics& diagnostics) {
-  constexpr Real wide = 3.9;  // spacings that the kernel reaches
+  constexpr Real wide = 3.9;  // reach of the kernel over spacing
   const Particles& p = world.particles;
   const Real dx = p.size() > 0 ? std::pow(p.m[0] / p.rho[0], 1.0 / world.dim) : 0;
   if (c.method > 0) {
@@ -45,7 +45,7 @@ void check_thickness(const CourantWallSupport& c, Real thickness, const Deck& de
         "let the shells be one spacing of the particles thick");
 }
 
-/// What METHOD 1 cannot do.
+/// Refuses what METHOD 1 does not support.
 void check_images(const CourantWallSupport& c, const Deck& deck, const Model& model, const World& world,
                   const SphSettings& s, Diagnostics& diagnostics) {
   const auto refuse = [&](bool is, const char* what, const char* hint) {
@@ -63,7 +63,7 @@ void check_images(const CourantWallSupport& c, const Deck& deck, const Model& mo
          "on walls that move and are no rigid bodies", "use METHOD 0, or make them of *MAT_RIGID");
 }
 
-/// What METHOD 2 cannot do: ghosts have no more than pair loops of plain water read of neighbours.
+/// Refuses what METHOD 2 does not support: ghosts enter the pair loops of plain water alone.
 void check_ghosts(const CourantWallSupport& c, const Deck& deck, const Model& model, const SphSettings& s,
                   Diagnostics& diagnostics) {
   const auto refuse = [&](bool is, const char* what, const char* hint = "use METHOD 1 or 0") {
@@ -85,7 +85,7 @@ void check_ghosts(const CourantWallSupport& c, const Deck& deck, const Model& mo
   refuse(!parts_of_several_materials(model).empty(), "where SPH parts differ in MID or EOSID");
 }
 
-/// What walls without slip ask for.
+/// Requirements of no-slip walls.
 void check_no_slip(const CourantWallSupport& c, const Deck& deck, const Model& model, const SphSettings& s,
                    Diagnostics& diagnostics) {
   const auto refuse = [&](bool is, const char* field, const std::string& what, const char* hint) {
@@ -107,7 +107,7 @@ void check_no_slip(const CourantWallSupport& c, const Deck& deck, const Model& m
                     "give MU in *MAT_NULL, 1e-3 Pa s for water, or LAW 0");
 }
 
-/// Fields of friction that do not go together.
+/// Refuses contradicting fields of friction.
 void check_friction(const CourantWallSupport& c, const Deck& deck, const Model& model, const SphSettings& s,
                     Diagnostics& diagnostics) {
   if (c.law == 2) return check_no_slip(c, deck, model, s, diagnostics);
@@ -127,7 +127,7 @@ void check_friction(const CourantWallSupport& c, const Deck& deck, const Model& 
                         "give MU in *MAT_NULL, 1e-3 Pa s for water, or the roughness KS");
 }
 
-/// Whether a corner of a shell moves by its forces.
+/// Whether a node of a shell moves by forces.
 bool deforms(const World& world, Index segment) {
   for (const Index n : world.segments.nodes(segment))
     if (world.nodes.follow[n] == 0) return true;

@@ -21,14 +21,14 @@ bool segment_moves(const World& world, Index segment) {
   return std::any_of(nodes.begin(), nodes.end(), [&](Index n) { return !world.nodes.held[n]; });
 }
 
-Lookouts::Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes)
-    : reach_(1.1 * reach) {  // particles may stand a little behind a mirror
+OccupiedCells::OccupiedCells(const Particles& p, Real reach, const std::vector<GhostPlane>& planes)
+    : reach_(1.1 * reach) {  // particles may be slightly behind a mirror
   for (const GhostPlane& plane : planes) {
-    // in a mirror an image is never nearer to what looks than the face itself
+    // the image in a mirror is never nearer than the face itself
     if (plane.kind != GhostPlane::Kind::periodic) continue;
     const std::size_t known = shifts_.size();
-    for (const Real way : {-plane.period, plane.period})
-      for (std::size_t k = 0; k < known; ++k) shifts_.push_back(shifts_[k] + way * plane.normal);
+    for (const Real shift : {-plane.period, plane.period})
+      for (std::size_t k = 0; k < known; ++k) shifts_.push_back(shifts_[k] + shift * plane.normal);
   }
   Vec high;
   for (int k = 0; k < 3; ++k) {
@@ -55,14 +55,14 @@ Lookouts::Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>
   }
 }
 
-bool Lookouts::any_near(const Vec& low, const Vec& high) const {
+bool OccupiedCells::any_near(const Vec& low, const Vec& high) const {
   if (taken_.empty() || !low.allFinite() || !high.allFinite()) return true;
   for (const Vec& shift : shifts_)
     if (any_in(low + shift, high + shift)) return true;
   return false;
 }
 
-bool Lookouts::any_in(const Vec& low, const Vec& high) const {
+bool OccupiedCells::any_in(const Vec& low, const Vec& high) const {
   std::array<Index, 3> first{}, last{};
   for (int k = 0; k < 3; ++k) {
     const Real from = (low[k] - reach_ - low_[k]) / cell_, to = (high[k] + reach_ - low_[k]) / cell_;
@@ -78,7 +78,7 @@ bool Lookouts::any_in(const Vec& low, const Vec& high) const {
 }
 
 WallSurface::WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-                         std::vector<GhostPlane> planes, const Lookouts* from, const WallBelts* belts,
+                         std::vector<GhostPlane> planes, const OccupiedCells* from, const WallBelts* belts,
                          Real beyond)
     : dim_(world.dim),
       reach_(reach),
@@ -207,7 +207,7 @@ void WallSurface::add_point(const Face& face, Index index, const Vec& x, const V
   points_.push_back(point);
 }
 
-/// Of a piece about x with these sides, what lies in front of all planes.
+/// Fraction of a piece around x with these sides that is in front of all planes.
 Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& across) const {
   Real share = 1;
   for (const GhostPlane& plane : mirrors_and_periods_) {
@@ -223,11 +223,11 @@ Real WallSurface::share_in_front(const Vec& x, const Vec& along, const Vec& acro
   return share;
 }
 
-Vec WallSurface::place_behind(int k, Side way, const Vec& x) const {
+Vec WallSurface::position_behind(int k, Side side, const Vec& x) const {
   const GhostPlane& plane = mirrors_and_periods_[k];
   if (plane.kind == GhostPlane::Kind::mirror) return x - 2 * depth(plane, x) * plane.normal;
   const Vec shift = plane.period * plane.normal;
-  return way == 2 ? Vec(x + shift) : Vec(x - shift);
+  return side == 2 ? Vec(x + shift) : Vec(x - shift);
 }
 
 Vec WallSurface::direction_behind(int k, const Vec& v) const {
@@ -236,13 +236,13 @@ Vec WallSurface::direction_behind(int k, const Vec& v) const {
   return v - 2 * v.dot(plane.normal) * plane.normal;
 }
 
-WallMotion WallSurface::motion_behind(int k, Side way, const WallMotion& m) const {
+WallMotion WallSurface::motion_behind(int k, Side side, const WallMotion& m) const {
   const bool turned = mirrors_and_periods_[k].kind == GhostPlane::Kind::mirror;
   const Vec omega = direction_behind(k, m.omega);
-  return {place_behind(k, way, m.x0), direction_behind(k, m.v), turned ? Vec(-omega) : omega};
+  return {position_behind(k, side, m.x0), direction_behind(k, m.v), turned ? Vec(-omega) : omega};
 }
 
-/// Images of what is there so far, those of earlier planes among it, as far as anything can see them.
+/// Images of the current faces, including those of earlier planes, as far as they are in sight.
 void WallSurface::add_images(int k) {
   const GhostPlane plane = mirrors_and_periods_[k];
   const Index known_points = points(), known_faces = faces();
@@ -258,17 +258,17 @@ void WallSurface::add_images(int k) {
       if (!is_near(d) || in_mirror) continue;
       if (image[point.face] < 0) {
         Face face = faces_[point.face];
-        for (Vec& x : face.x) x = place_behind(k, side, x);
+        for (Vec& x : face.x) x = position_behind(k, side, x);
         for (int c = 0; c < 3; ++c)
           face.from_image.col(c) = faces_[point.face].from_image * direction(Vec::Unit(c));
         face.side |= side << 2 * k;
-        face.image_of = point.face, face.behind = k, face.way = side;
+        face.image_of = point.face, face.behind = k, face.image_side = side;
         face.slide = motion_behind(k, side, face.slide);
         image[point.face] = faces();
         add_face(face);
       }
       WallPoint at_image = point;
-      at_image.x = place_behind(k, side, point.x), at_image.area = direction(point.area);
+      at_image.x = position_behind(k, side, point.x), at_image.area = direction(point.area);
       at_image.v = direction(point.v), at_image.face = image[point.face];
       points_.push_back(at_image);
     }
@@ -281,7 +281,7 @@ void WallSurface::add_images(int k) {
   }
 }
 
-/// What is on a plane is on both of its sides.
+/// A point on a plane is on both of its sides.
 bool WallSurface::is_at(Side side, const Vec& x) const {
   for (const GhostPlane& plane : mirrors_and_periods_) {
     const Real d = depth(plane, x), tolerance = small * reach_;
@@ -412,7 +412,7 @@ std::vector<Index> WallSurface::points_around(const Vec& x, Real within) const {
   return found;
 }
 
-/// What is between is nearer, and some point of it not much farther than the piece it is on is large.
+/// A face between is nearer, and one of its points is at most one size of a piece farther.
 WallSurface::SightSearch::SightSearch(const WallSurface& surface, const Vec& from, Real within)
     : surface_(surface),
       from_(from),

@@ -1,5 +1,5 @@
 #pragma once
-// The surface of shells at one moment, as points that each represent a piece of it.
+// The surface of shells at one time, as points that each represent a small area.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -19,18 +19,17 @@ struct WallPoint {
   Vec area = Vec::Zero();  ///< of the piece, along the normal of its face [L^(dim-1)]
   Index face = 0;
   Vec v = Vec::Zero();           ///< [L/T]
-  std::array<Real, 4> weight{};  ///< of the nodes of its segment, as they interpolate [-]
+  std::array<Real, 4> weight{};  ///< interpolation weights of the nodes of its segment [-]
 };
 
-/// Whether any of its nodes can.
+/// Whether any node of the segment can move.
 bool segment_moves(const World& world, Index segment);
 
-/// Where walls may be seen from: cells about `reach` wide, and which of them particles are in.
-class Lookouts {
+/// Cells of about the size `reach` that contain particles: walls elsewhere are out of sight.
+class OccupiedCells {
  public:
-  Lookouts(const Particles& p, Real reach, const std::vector<GhostPlane>& planes);
-  /// Whether anything within the reach of this box, or of its image across a period, is there; true where
-  /// that is not known.
+  OccupiedCells(const Particles& p, Real reach, const std::vector<GhostPlane>& planes);
+  /// Whether a particle may be within the reach of this box or of its periodic image; true if unknown.
   bool any_near(const Vec& low, const Vec& high) const;
 
  private:
@@ -38,28 +37,29 @@ class Lookouts {
   Real reach_, cell_ = 1;
   Vec low_ = Vec::Zero();
   std::array<Index, 3> cells_{0, 0, 0};
-  std::vector<char> taken_;  ///< empty: anywhere
+  std::vector<char> taken_;  ///< empty: all cells
   std::vector<Vec> shifts_{Vec::Zero()};
 };
 
-/// Flat faces cut into pieces of about one size. In 2D a shell counts by its line in the plane of flow, once
-/// however many shells it has across, and areas are lengths. Behind planes stands the image of what is in
-/// front of them, and nothing else.
+/// Flat faces divided into pieces of similar size. In 2D a shell is its line in the plane of flow, counted
+/// once for any number of shells across, and areas are lengths. Behind symmetry and periodic planes are
+/// images of the faces.
 class WallSurface {
  public:
-  /// `spacing`: of points [L]; `reach`: farthest that anything looks [L]. `from`: what nothing there can see
-  /// is left out. `belts`: what moves along itself. `beyond`: so much farther `faces_around` may look [L].
+  /// `spacing`: of points [L]; `reach`: greatest range of queries [L]. `from`: faces out of sight of it
+  /// are omitted. `belts`: moving surfaces. `beyond`: additional range of `faces_around` [L].
   WallSurface(const World& world, const std::vector<Index>& segments, Real spacing, Real reach,
-              std::vector<GhostPlane> planes = {}, const Lookouts* from = nullptr,
+              std::vector<GhostPlane> planes = {}, const OccupiedCells* from = nullptr,
               const WallBelts* belts = nullptr, Real beyond = 0);
 
   Index faces() const { return static_cast<Index>(faces_.size()); }
   Index points() const { return static_cast<Index>(points_.size()); }
   Index segment_of(Index face) const { return faces_[face].segment; }
-  /// A vector at the image of a face, as it is at the face itself.
+  /// Maps a vector at the image of a face to the face itself.
   Vec from_image(Index face, const Vec& v) const { return faces_[face].from_image * v; }
 
-  /// Where x sees one flat wall and none of its edges: a face of it; else -1. `nothing`: it sees no wall.
+  /// `flat`: the face if one flat wall without edges is all that is in sight of x, else -1. `nothing`: no
+  /// wall in sight.
   struct View {
     bool nothing = true;
     Index flat = -1;
@@ -71,26 +71,26 @@ class WallSurface {
     return height(face, x) < 0 ? faces_[face].n : Vec(-faces_[face].n);
   }
 
-  /// Two bits for each of these planes: 0 in front of it, 1 behind, 2 behind the other one of a period.
+  /// Two bits per plane: 0 in front of it, 1 behind, 2 behind the other plane of a period.
   using Side = std::uint64_t;
   struct Face {
-    std::array<Vec, 4> x, inward;            ///< corners; of the edge from each to the next, into the face
-    std::array<Vec, 4> v;                    ///< of the segment's nodes
-    std::array<Real, 4> along{};             ///< in 2D: 1 for nodes at the line's end, 0 at its begin
-    Matrix from_image = Matrix::Identity();  ///< turns directions at an image back
+    std::array<Vec, 4> x, inward;  ///< corners; inward normals of the edges from each corner to the next
+    std::array<Vec, 4> v;          ///< of the segment's nodes
+    std::array<Real, 4> along{};   ///< in 2D: 1 for nodes at the end of the line, 0 at its start
+    Matrix from_image = Matrix::Identity();  ///< maps directions at an image to the original
     Vec n = Vec::Zero();
     Real offset = 0;
     int corners = 4;
     Index plane = 0, segment = 0;
-    Side side = 0;        ///< where it counts
-    Index body = -1;      ///< the part whose motion it follows; -1: it is held
-    Index image_of = -1;  ///< the face whose image it is behind plane `behind`, on the side `way`
+    Side side = 0;        ///< where the face is valid
+    Index body = -1;      ///< the part whose motion it follows; -1: fixed
+    Index image_of = -1;  ///< the face whose image it is behind plane `behind`, on side `image_side`
     int behind = 0;
-    Side way = 0;
+    Side image_side = 0;
     int belt = -1;     ///< which it belongs to; -1: none
     WallMotion slide;  ///< of the moving surface, at factor 1
-    /// Velocity of the moving surface along the face at x [L/T]; 0 without one. `factors`: by which moving
-    /// surfaces go now.
+    /// Velocity of the moving surface along the face at x [L/T]; 0 without one. `factors`: current factors
+    /// of moving surfaces.
     Vec slide_at(const std::vector<Real>& factors, const Vec& x) const {
       if (belt < 0) return Vec::Zero();
       const Vec u = slide.at(x);
@@ -100,28 +100,27 @@ class WallSurface {
     Face() { x.fill(Vec::Zero()), inward.fill(Vec::Zero()), v.fill(Vec::Zero()); }
   };
   const Face& face(Index f) const { return faces_[f]; }
-  /// Where the faces, which look as those of `faces`, and their motions are: those that move, where the nodes
-  /// were `back` ago by their velocity over the last step. Who looks for faces finds them where they were
-  /// when the surface was made. [T]
+  /// Current faces and motions, in the layout of `faces`: nodes `back` ago by their velocity over the last
+  /// step. Searches for faces use the positions at the time of construction. [T]
   void take_along(std::vector<Face>& faces, std::vector<WallMotion>& motions, const World& world,
                   Real back) const;
-  /// By which forces at x, in the plane of a face, are on the nodes of its segment: their sum and their
-  /// moment are those at x, also past the edges.
+  /// Weights that distribute a force at x, in the plane of a face, over the nodes of its segment with the
+  /// same sum and moment, also past the edges.
   std::array<Real, 4> weights_of_nodes(const Face& face, const Vec& x) const;
   /// Faces that have points within the reach of x, ascending.
   std::vector<Index> faces_around(const Vec& x) const { return faces_around(x, reach_); }
   std::vector<Index> faces_around(const Vec& x, Real within) const;
-  /// Faces among which is the one next to x, where any is within the reach; ascending.
+  /// Faces that include the nearest one to x, if any is within the reach; ascending.
   std::vector<Index> faces_next_to(const Vec& x) const;
-  /// Whether q, in the plane of a face, is where that face or its image counts.
+  /// Whether the face or its image is valid at q, a point in its plane.
   bool is_at_face(Index f, const Vec& q) const;
   Real reach() const { return reach_; }
   Real spacing() const { return spacing_; }
   int dim() const { return dim_; }
   Vec in_plane(const Vec& x) const { return dim_ == 2 ? Vec(x[0], x[1], 0) : x; }
 
-  /// Calls f(point, away) for each point nearer than the reach, and than `within`, that can be seen from x
-  /// past other faces; `away` is the piece's area with its normal away from x.
+  /// Calls f(point, away) for each point within the reach and `within` that is visible from x; `away` is
+  /// the area vector that points away from x.
   template <class F>
   void for_each_seen(const Vec& x, F&& f) const {
     for_each_seen(x, reach_, std::forward<F>(f));
@@ -131,7 +130,7 @@ class WallSurface {
     const Vec from = in_plane(x);
     show_seen(from, sight_from(from, within), std::forward<F>(f));
   }
-  /// The same where these are all points that may matter, as `points_around` lists them.
+  /// The same with a list of candidates from `points_around`.
   template <class F>
   void for_each_seen(const Vec& x, Real within, const std::vector<Index>& among, F&& f) const {
     const Vec from = in_plane(x);
@@ -139,7 +138,7 @@ class WallSurface {
     for (const Index q : among) search.look_at(q);
     show_seen(from, search.found(), std::forward<F>(f));
   }
-  /// Ascending.
+  /// Points within a distance of x, ascending.
   std::vector<Index> points_around(const Vec& x, Real within) const;
 
  private:
@@ -152,7 +151,7 @@ class WallSurface {
       f(point, point.area.dot(point.x - from) < 0 ? Vec(-point.area) : point.area);
     }
   }
-  /// What is alike to 1e-6 of the reach has one key.
+  /// Key of values that are equal to 1e-6 of the reach.
   using Key = std::array<std::int64_t, 6>;
   Key key(const Vec& a, const Vec& b) const;
 
@@ -164,25 +163,25 @@ class WallSurface {
   void cut(Index face, Real spacing);
   Real share_in_front(const Vec& x, const Vec& along, const Vec& across) const;
   void add_images(int plane);
-  Vec place_behind(int plane, Side way, const Vec& x) const;
+  Vec position_behind(int plane, Side side, const Vec& x) const;
   Vec direction_behind(int plane, const Vec& v) const;
-  WallMotion motion_behind(int plane, Side way, const WallMotion& motion) const;
+  WallMotion motion_behind(int plane, Side side, const WallMotion& motion) const;
   bool is_at(Side side, const Vec& x) const;
   void sort_into_cells();
   bool near(Index point, const Vec& x) const { return (at_[point] - x).squaredNorm() < reach_ * reach_; }
   int cells_around(const Vec& x, std::array<Index, 27>& cells) const;
-  /// Faces of one plane that may be between a particle and what is on its other side.
+  /// Faces of one plane that may be between a particle and points on the other side.
   struct Screen {
     Index plane = 0;
     Vec n = Vec::Zero();
     Real offset = 0, height = 0;  ///< of the particle beside it [L]
     std::vector<Index> faces;
   };
-  /// What may be seen from a position.
+  /// Points that may be visible from a position.
   struct Sight {
     std::vector<Index> points;
-    std::vector<Screen> screens;  ///< none where all is in one plane
-    Real doubt = 0;               ///< places so near to a plane may be on either side of one of its faces [L]
+    std::vector<Screen> screens;  ///< empty if all is in one plane
+    Real doubt = 0;               ///< nearer to a plane, a position may be on either side of a face [L]
   };
   class SightSearch {
    public:
@@ -197,7 +196,7 @@ class WallSurface {
     void take(Index point, Real r2);
     const WallSurface& surface_;
     Vec from_;
-    Real within2_, around2_;  ///< of points, and of what may be before them [L2]
+    Real within2_, around2_;  ///< of points, and of faces in front of them [L2]
     std::vector<Index> faces_;
     Index plane_ = -1;
     bool corner_ = false;
@@ -208,14 +207,14 @@ class WallSurface {
 
   int dim_;
   Real reach_;
-  Real farthest_;  ///< that faces are looked for [L]
-  Real spacing_;   ///< pieces are no longer
+  Real farthest_;  ///< range of `faces_around` [L]
+  Real spacing_;   ///< greatest length of a piece [L]
   std::vector<GhostPlane> mirrors_and_periods_;
   std::vector<Face> faces_;
   std::set<Key> lines_;
   std::map<Key, Index> planes_;
   std::vector<WallPoint> points_;
-  std::vector<Vec> at_;  ///< where they are, once more, close together
+  std::vector<Vec> at_;  ///< their positions, contiguous
   Vec low_ = Vec::Zero();
   Real cell_ = 1;
   std::array<Index, 3> cells_{1, 1, 1};

@@ -10,7 +10,7 @@ import courant
 import numpy as np
 import pytest
 from courant.scene import meshes
-from courant.scene.groups import cells_of
+from courant.scene.groups import cells_of, tidied
 from courant.scene.model import NearSurface
 
 from .made import written
@@ -98,10 +98,13 @@ def test_overlaps_in_space() -> None:
     space().structure(**post).body(sphere={"centre": (0.8, 0.5, 0.3), "radius": 0.12}, density=500).deck()
 
 
-def test_elements_with_nodes_on_their_sides_are_refused_by_name() -> None:
+def test_elements_with_nodes_on_their_sides_are_taken_by_their_corners() -> None:
     mixed = _Cells(CUBE, tetra=[[0, 1, 2, 4]], tetra10=[[0, 1, 2, 4, 3, 3, 3, 3, 3, 3]])
-    assert meshes.of_cells(cells_of(mixed)) is None and meshes.of_cells(cells_of(_Cells(CUBE, line=[[0, 1]]))) is None
-    assert "expected elements of first order, got tetra, tetra10" in message(space().structure(mixed, material="steel"))
+    made = meshes.of_cells(tidied(cells_of(mixed)))
+    assert made is not None and len(made.cells) == 2 and "1 elements of higher order taken by their corners" in made.notes[0]
+    line = _Cells(CUBE, line=[[0, 1]])
+    assert meshes.of_cells(cells_of(line)) is None
+    assert "expected solids, triangles or quadrangles, got cells of type line\n  hint: a 'section' makes beams" in message(space().structure(line, material="steel"))
 
 
 def test_gmsh_fills_a_closed_surface(tmp_path: Path) -> None:

@@ -108,7 +108,7 @@ TEST(WallPaths, FillTheKernelOverAStepAndBesideTheEndOfAPlate) {
   }
 }
 
-// Many short walls, each of which sees several others: what the ways by two of them and more leave open is
+// Many short walls, each of which sees several others: what the paths by two of them and more leave open is
 // little.
 TEST(WallPaths, FillTheKernelInAndAroundRoundWalls) {
   constexpr int sides = 24;
@@ -168,7 +168,7 @@ TEST(WallPaths, AreTheSameBothWays) {
              2);
   const WallSurface surface(world, {0, 1, 2}, h / 4, 2.1 * h + dx);
   const WallPaths paths(surface, 2, WallPaths::usual_width * dx);
-  int ways = 0;
+  int count = 0;
   for (int k = 0; k < 700; ++k) {
     const Vec x(0.2 * std::sin(1.3 * k) + 0.1, 0.2 * std::cos(2.1 * k), 0);
     const Vec y = x + Vec(0.15 * std::sin(5.7 * k), 0.15 * std::cos(3.3 * k), 0);
@@ -186,9 +186,9 @@ TEST(WallPaths, AreTheSameBothWays) {
     for (const WallPath& p : there) slope += p.by_i + 2 * p.by_j;
     for (const WallPath& p : back) other += p.by_j + 2 * p.by_i;
     EXPECT_LT((slope - other).norm() * dx, 1e-6) << k;
-    ways += static_cast<int>(there.size());
+    count += static_cast<int>(there.size());
   }
-  EXPECT_GT(ways, 200);
+  EXPECT_GT(count, 200);
 }
 
 /// Lines of wall, and whether a position is in the water.
@@ -254,7 +254,7 @@ std::vector<Index> add_lines(World& world, const Place& place) {
   return all;
 }
 
-// Density then depends on positions alone, not on the way there: what a pair gains on any way is the
+// Density then depends on positions alone, not on the path there: what a pair gains on any path is the
 // difference of what it has at its ends.
 TEST(WallPaths, GiveAndTakeShareWithoutJumps) {
   for (const Place& place : places()) {
@@ -289,16 +289,18 @@ struct SeenByWalls {
   Vec force = Vec::Zero(), moment = Vec::Zero();  ///< on all ends of what it depends on
 };
 SeenByWalls see_moving(const WallPaths& paths, WallPaths::Sheets sheets, const Vec& x, const Vec& y) {
-  paths.place(sheets);
+  paths.update(sheets);
   std::vector<WallPath> found{{.i = 0, .j = 1, .weight = 1, .d = x - y}};
-  std::vector<WallPull> at_edges;
+  std::vector<WallDerivative> at_edges;
   paths.add(sheets, 0, x, 1, y, 2 * h, found, &at_edges);
   SeenByWalls out;
-  const auto count = [&](const WallPull& pull, Real times) {
-    const Vec n = paths.face(pull.face).n, v = paths.velocity(pull.face, pull.at);
-    out.by_walls += times * (pull.force.dot(v) + n.dot(paths.velocity(pull.face, pull.at + pull.lever) - v));
-    out.force += times * pull.force;
-    out.moment += times * ((pull.at - paths.shift()).cross(pull.force) + pull.lever.cross(n));
+  const auto count = [&](const WallDerivative& derivative, Real times) {
+    const Vec n = paths.face(derivative.face).n, v = paths.velocity(derivative.face, derivative.at);
+    out.by_walls += times * (derivative.force.dot(v) +
+                             n.dot(paths.velocity(derivative.face, derivative.at + derivative.lever) - v));
+    out.force += times * derivative.force;
+    out.moment +=
+        times * ((derivative.at - paths.shift()).cross(derivative.force) + derivative.lever.cross(n));
   };
   for (const WallPath& p : found) {
     const Real R = p.d.norm() / h;
@@ -308,10 +310,10 @@ SeenByWalls see_moving(const WallPaths& paths, WallPaths::Sheets sheets, const V
               by_y = -p.weight * (p.turn.transpose() * slope) + W * p.by_j;
     out.seen.sum += p.weight * W, out.seen.by_x += by_x, out.seen.by_y += by_y;
     out.force += by_x + by_y, out.moment += x.cross(by_x) + y.cross(by_y);
-    for (Index k = p.pulls; k < p.pulls_end; ++k) count(at_edges[k], W);
-    std::vector<WallPull> pulls;
-    if (p.moves) paths.pull_images(sheets, p, y, p.weight * slope, pulls);
-    for (const WallPull& pull : pulls) count(pull, 1);
+    for (Index k = p.derivatives; k < p.derivatives_end; ++k) count(at_edges[k], W);
+    std::vector<WallDerivative> derivatives;
+    if (p.moves) paths.add_image_derivatives(sheets, p, y, p.weight * slope, derivatives);
+    for (const WallDerivative& derivative : derivatives) count(derivative, 1);
   }
   return out;
 }
@@ -382,14 +384,14 @@ TEST(WallPaths, ShowAParticleToItselfInCorners) {
   }
 }
 
-/// Particles beside walls, each a neighbour of all, as the loops over rooms take them.
+/// Particles beside walls, each a neighbour of all, as the loops over sub-domains take them.
 struct Crowd {
   std::vector<Real> x[3], v[3], V, p, rho, drhodt, f[3], wall_force[3], edge_loss, edge_sum[2];
-  std::vector<const WallRoom*> room;
-  std::vector<WallRoom> rooms;
+  std::vector<const WallSubDomain*> domain;
+  std::vector<WallSubDomain> domains;
   std::vector<const WallEdge*> edge;
   std::vector<WallEdge> edges;
-  std::vector<char> strange;
+  std::vector<char> skipped;
   std::vector<Index> list, start, doubt;
   std::vector<unsigned char> lanes;
   Index doubts = 0;
@@ -417,7 +419,7 @@ struct Crowd {
     a.h = h, a.half_step = 1e-3, a.width = WallPaths::usual_width * dx;
     a.edge_loss = edge_loss.data();
     for (int k = 0; k < 2; ++k) a.edge_sum[k] = edge_sum[k].data();
-    a.room = room.data(), a.edge = edge.data(), a.strange = strange.data();
+    a.domain = domain.data(), a.edge = edge.data(), a.skipped = skipped.data();
     a.doubt = doubt.data(), a.doubt_lanes = lanes.data(), a.doubts = &doubts;
     a.kernel = &any_kernel(KernelChoice::cubic_spline);
     return a;
@@ -439,11 +441,11 @@ Crowd crowd_about(const WallPaths& paths, int dim, Real wide, const Wet& wet) {
   for (auto* to : {&out.drhodt, &out.f[0], &out.f[1], &out.f[2], &out.wall_force[0], &out.wall_force[1],
                    &out.wall_force[2], &out.edge_sum[0], &out.edge_sum[1]})
     to->assign(n, 0);
-  out.rooms.resize(n), out.room.resize(n), out.strange.assign(n, 0);
+  out.domains.resize(n), out.domain.resize(n), out.skipped.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i)
-    for (const OpenRoom& r :
-         paths.rooms_about(paths.sheets_around(out.at(i), 2.2 * h + dx), out.at(i), 0, 2 * h))
-      if (r.holds_open(out.at(i), 0.6 * dx)) out.rooms[i] = r.open, out.room[i] = &out.rooms[i];
+    for (const OpenSubDomain& r :
+         paths.sub_domains_about(paths.sheets_around(out.at(i), 2.2 * h + dx), out.at(i), 0, 2 * h))
+      if (r.holds_open(out.at(i), 0.6 * dx)) out.domains[i] = r.open, out.domain[i] = &out.domains[i];
   out.edges.resize(n), out.edge.resize(n);
   for (std::size_t i = 0; i < n; ++i)
     if (const auto edge = paths.edge_about(paths.sheets_around(out.at(i), 2.2 * h + dx), out.at(i), 2 * h))
@@ -463,8 +465,8 @@ struct Plates {
   bool (*wet)(const Vec&);
 };
 
-// What the loops add of pairs that they do not doubt is what the ways between them are, in corners and beside
-// the ends of walls.
+// What the loops add of pairs that they do not doubt is what the paths between them are, in corners and
+// beside the ends of walls.
 TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
   const Real L = 1;
   const Plates places[] = {
@@ -506,9 +508,9 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
     mirror_rates_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
     mirror_forces_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
     const WallTables table(KernelChoice::cubic_spline, place.dim);
-    int looked = 0, ways = 0;
+    int looked = 0, count = 0;
     for (std::size_t i = 0; i < crowd.V.size(); ++i) {
-      if (!crowd.room[i] || crowd.strange[i] != 0) continue;
+      if (!crowd.domain[i] || crowd.skipped[i] != 0) continue;
       ++looked;
       Real rate = 0;
       Vec force = Vec::Zero();
@@ -521,27 +523,27 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
         std::vector<WallPath> earlier, now;
         const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
         paths.add(sheets, static_cast<Index>(i), back(i), static_cast<Index>(j), back(j), 2 * h, earlier);
-        for (const WallPath& way : earlier)
-          rate += crowd.V[j] * way.weight * slope(way.d) *
-                  (crowd.velocity(i) - way.turn * crowd.velocity(j)).dot(way.d);
+        for (const WallPath& path : earlier)
+          rate += crowd.V[j] * path.weight * slope(path.d) *
+                  (crowd.velocity(i) - path.turn * crowd.velocity(j)).dot(path.d);
         paths.add(sheets, static_cast<Index>(i), crowd.at(i), static_cast<Index>(j), crowd.at(j), 2 * h, now);
-        for (const WallPath& way : now) {
-          EXPECT_TRUE(way.by_i.isZero()) << place.name << " " << crowd.at(i).transpose();
-          force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) * way.weight * slope(way.d) * way.d;
+        for (const WallPath& path : now) {
+          EXPECT_TRUE(path.by_i.isZero()) << place.name << " " << crowd.at(i).transpose();
+          force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) * path.weight * slope(path.d) * path.d;
         }
-        ways += static_cast<int>(now.size());
+        count += static_cast<int>(now.size());
       }
       const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));
       // what oneself adds, from one position aside
-      WallRoom room = *crowd.room[i];
+      WallSubDomain domain = *crowd.domain[i];
       const Vec x = crowd.at(i) + paths.shift(), earlier = x - 1e-3 * crowd.velocity(i),
                 u = crowd.velocity(i);
-      for (int S = 1; S < 1 << room.walls && !crowd.is_doubtful(i, i); ++S) {
+      for (int S = 1; S < 1 << domain.walls && !crowd.is_doubtful(i, i); ++S) {
         Vec d = Vec::Zero(), before = d, over = d;
-        for (int k = 0; k < room.walls; ++k) {
+        for (int k = 0; k < domain.walls; ++k) {
           if ((S >> k & 1) == 0) continue;
-          const Vec n(room.n[k][0], room.n[k][1], room.n[k][2]);
-          d += 2 * (n.dot(x) - room.offset[k]) * n, before += 2 * (n.dot(earlier) - room.offset[k]) * n;
+          const Vec n(domain.n[k][0], domain.n[k][1], domain.n[k][2]);
+          d += 2 * (n.dot(x) - domain.offset[k]) * n, before += 2 * (n.dot(earlier) - domain.offset[k]) * n;
           over += 2 * n.dot(u) * n;
         }
         const auto slope = [&](const Vec& e) {
@@ -554,44 +556,44 @@ TEST(WallPaths, AreThoseOfRoomsWhereWaysLeaveNone) {
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(crowd.f[c][i], force[c], 4 * scale) << place.name;
     }
     EXPECT_GT(looked, 10) << place.name;
-    EXPECT_GT(ways, 20) << place.name;
+    EXPECT_GT(count, 20) << place.name;
   }
 }
 
-/// What ways by WallPaths add to the rate of density of a particle and the force on it, and its edge_sum.
-struct ByWays {
+/// What paths by WallPaths add to the rate of density of a particle and the force on it, and its edge_sum.
+struct ByPaths {
   Real rate = 0;
   Vec force = Vec::Zero();
   std::array<Real, 2> sum{};
 };
-ByWays by_ways(const WallPaths& paths, const Crowd& crowd, std::size_t i, int dim) {
+ByPaths by_paths(const WallPaths& paths, const Crowd& crowd, std::size_t i, int dim) {
   const WallTables table(KernelChoice::cubic_spline, dim);
   const Real volume = dim == 2 ? h * h : h * h * h;
   const auto slope = [&](const Vec& d) { return table.slope(d.norm() / h) / (d.norm() * h * volume); };
   const auto kernel = [&](const Vec& d) { return table.kernel(d.norm() / h) / volume; };
   const auto sheets = paths.sheets_around(crowd.at(i), 2.2 * h + dx);
-  ByWays out;
+  ByPaths out;
   for (std::size_t j = 0; j < crowd.V.size(); ++j) {
     std::vector<WallPath> earlier, now;
     const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
     paths.add(sheets, static_cast<Index>(i), back(i), static_cast<Index>(j), back(j), 2 * h, earlier);
-    for (const WallPath& way : earlier) {
-      if (way.weight > 0 || way.across)
-        out.sum[way.weight > 0 ? 0 : 1] += crowd.V[j] * kernel(way.d) * way.by_i.norm();
+    for (const WallPath& path : earlier) {
+      if (path.weight > 0 || path.across)
+        out.sum[path.weight > 0 ? 0 : 1] += crowd.V[j] * kernel(path.d) * path.by_i.norm();
       out.rate += crowd.V[j] *
-                  (way.weight * slope(way.d) * (crowd.velocity(i) - way.turn * crowd.velocity(j)).dot(way.d) +
-                   crowd.kept(i, j) * kernel(way.d) *
-                       (way.by_i.dot(crowd.velocity(i)) + way.by_j.dot(crowd.velocity(j))));
+                  (path.weight * slope(path.d) * (crowd.velocity(i) - path.turn * crowd.velocity(j)).dot(path.d) +
+                   crowd.kept(i, j) * kernel(path.d) *
+                       (path.by_i.dot(crowd.velocity(i)) + path.by_j.dot(crowd.velocity(j))));
     }
     paths.add(sheets, static_cast<Index>(i), crowd.at(i), static_cast<Index>(j), crowd.at(j), 2 * h, now);
-    for (const WallPath& way : now)
+    for (const WallPath& path : now)
       out.force -= crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]) *
-                   (way.weight * slope(way.d) * way.d + crowd.kept(i, j) * kernel(way.d) * way.by_i);
+                   (path.weight * slope(path.d) * path.d + crowd.kept(i, j) * kernel(path.d) * path.by_i);
   }
   return out;
 }
 
-// What the loops over edges add is what all ways of these particles do, those that pass the edge and those
+// What the loops over edges add is what all paths of these particles do, those that pass the edge and those
 // that it hides among them.
 TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
   const auto anywhere = [](const Vec&) { return true; };
@@ -633,9 +635,9 @@ TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
     int looked = 0;
     Real most = 0;
     for (std::size_t i = 0; i < crowd.V.size(); ++i) {
-      if (!crowd.edge[i] || crowd.strange[i] != 0) continue;
+      if (!crowd.edge[i] || crowd.skipped[i] != 0) continue;
       ++looked;
-      const auto [rate, force, sum] = by_ways(paths, crowd, i, place.dim);
+      const auto [rate, force, sum] = by_paths(paths, crowd, i, place.dim);
       const Real scale = 1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));
       most = std::max(most, std::abs(rate));
       EXPECT_NEAR(crowd.drhodt[i], rate, 4 * scale) << place.name << ": " << crowd.at(i).transpose();
@@ -653,15 +655,15 @@ TEST(WallPaths, AreThoseOfEdgesInTheirLoops) {
 struct Exchange {
   Real rate = 0;
   Vec force = Vec::Zero(), on_wall = Vec::Zero(), moment = Vec::Zero();
-  void give(const WallPaths& paths, const WallPull& pull, Real times) {
-    on_wall += times * pull.force;
-    moment +=
-        times * ((pull.at - paths.shift()).cross(pull.force) + pull.lever.cross(paths.face(pull.face).n));
+  void give(const WallPaths& paths, const WallDerivative& derivative, Real times) {
+    on_wall += times * derivative.force;
+    moment += times * ((derivative.at - paths.shift()).cross(derivative.force) +
+                       derivative.lever.cross(paths.face(derivative.face).n));
   }
 };
 
 /// As WallImages follows the paths of particle i one by one where walls move.
-Exchange by_moving_ways(const WallPaths& middle, const WallPaths& end, const WallPaths::Sheets& around,
+Exchange by_moving_paths(const WallPaths& middle, const WallPaths& end, const WallPaths::Sheets& around,
                         const Crowd& crowd, std::size_t i, int dim) {
   const AnyKernel& kernel = any_kernel(KernelChoice::cubic_spline);
   const Real norm = kernel.C(dim) / (dim == 2 ? h * h : h * h * h);
@@ -670,59 +672,62 @@ Exchange by_moving_ways(const WallPaths& middle, const WallPaths& end, const Wal
     return norm * kernel.gradient_factor * kernel.gradient(d.norm() / h) / (d.norm() * h);
   };
   auto then = around, now = around;
-  middle.place(then), end.place(now);
+  middle.update(then), end.update(now);
   Exchange out;
   for (std::size_t j = 0; j < crowd.V.size(); ++j) {
     const auto back = [&](std::size_t k) { return Vec(crowd.at(k) - 1e-3 * crowd.velocity(k)); };
     const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
-    std::vector<WallPath> ways;
-    std::vector<WallPull> pulls;
-    middle.add(then, a, back(i), b, back(j), 2 * h, ways, &pulls);
+    std::vector<WallPath> found;
+    std::vector<WallDerivative> derivatives;
+    middle.add(then, a, back(i), b, back(j), 2 * h, found, &derivatives);
     bool at_edge = false;
-    for (const WallPath& way : ways) {
-      Real turns = way.by_i.dot(crowd.velocity(i)) + way.by_j.dot(crowd.velocity(j));
-      for (Index k = way.pulls; k < way.pulls_end; ++k) {
-        const Vec v = middle.velocity(pulls[k].face, pulls[k].at),
-                  farther = middle.velocity(pulls[k].face, pulls[k].at + pulls[k].lever);
-        turns += pulls[k].force.dot(v) + middle.face(pulls[k].face).n.dot(farther - v);
+    for (const WallPath& path : found) {
+      Real turns = path.by_i.dot(crowd.velocity(i)) + path.by_j.dot(crowd.velocity(j));
+      for (Index k = path.derivatives; k < path.derivatives_end; ++k) {
+        const Vec v = middle.velocity(derivatives[k].face, derivatives[k].at),
+                  farther = middle.velocity(derivatives[k].face, derivatives[k].at + derivatives[k].lever);
+        turns += derivatives[k].force.dot(v) + middle.face(derivatives[k].face).n.dot(farther - v);
       }
-      const Vec u = crowd.velocity(i) - way.turn * crowd.velocity(j) - way.drift;
+      const Vec u = crowd.velocity(i) - path.turn * crowd.velocity(j) - path.drift;
       out.rate +=
-          crowd.V[j] * (way.weight * slope(way.d) * u.dot(way.d) + crowd.kept(i, j) * W(way.d) * turns);
-      at_edge |= std::abs(way.weight) < 1;
+          crowd.V[j] * (path.weight * slope(path.d) * u.dot(path.d) + crowd.kept(i, j) * W(path.d) * turns);
+      at_edge |= std::abs(path.weight) < 1;
     }
     if (at_edge)
-      ways.clear(), pulls.clear(), end.add(now, a, crowd.at(i), b, crowd.at(j), 2 * h, ways, &pulls);
-    for (WallPath& way : ways) {
-      if (way.moves)
-        end.bring(now, crowd.at(i), crowd.at(j), way);
+      found.clear(), derivatives.clear(),
+          end.add(now, a, crowd.at(i), b, crowd.at(j), 2 * h, found, &derivatives);
+    for (WallPath& path : found) {
+      if (path.moves)
+        end.bring(now, crowd.at(i), crowd.at(j), path);
       else
-        way.d = crowd.at(i) - crowd.at(j);
+        path.d = crowd.at(i) - crowd.at(j);
       const Real pressure = -crowd.V[i] * crowd.V[j] * (crowd.p[i] + crowd.p[j]);
-      const Vec along = pressure * way.weight * slope(way.d) * way.d;
-      const Real goes_over = pressure * crowd.kept(i, j) * W(way.d);
-      out.force += along + goes_over * way.by_i;
-      for (Index k = way.pulls; k < way.pulls_end; ++k) out.give(end, pulls[k], 0.5 * goes_over);
-      std::vector<WallPull> images;
-      if (way.moves) end.pull_images(now, way, crowd.at(j), -along, images);
-      for (const WallPull& pull : images) out.give(end, pull, -0.5);
+      const Vec along = pressure * path.weight * slope(path.d) * path.d;
+      const Real goes_over = pressure * crowd.kept(i, j) * W(path.d);
+      out.force += along + goes_over * path.by_i;
+      for (Index k = path.derivatives; k < path.derivatives_end; ++k)
+        out.give(end, derivatives[k], 0.5 * goes_over);
+      std::vector<WallDerivative> images;
+      if (path.moves) end.add_image_derivatives(now, path, crowd.at(j), -along, images);
+      for (const WallDerivative& derivative : images) out.give(end, derivative, -0.5);
     }
   }
   return out;
 }
 
 /// What a particle at x does to its edge, as the loops have it.
-Exchange of_edge(const WallEdge& edge, const WallEdgePull& pull, const Vec& x) {
+Exchange of_edge(const WallEdge& edge, const WallEdgeReaction& derivative, const Vec& x) {
   const auto vec = [](const Real(&of)[3]) { return Vec(of[0], of[1], of[2]); };
   Exchange out;
   const Vec axis = vec(edge.n[0]).cross(vec(edge.m[0])), from = vec(edge.at),
             place = from + axis.dot(x - from) * axis;
   for (int k = 0; k < edge.walls; ++k) {
     const Vec n = vec(edge.n[k]), m = vec(edge.m[k]), foot = x - n.dot(x - from) * n,
-              at_edge = pull.edge[k][0] * n + pull.edge[k][1] * m;
-    out.on_wall += pull.push[k] * n + at_edge;
-    out.moment += foot.cross(pull.push[k] * n) + (pull.inward[k] * m + pull.along[k] * axis).cross(n) +
-                  place.cross(at_edge) + axis.cross(pull.edge_along[k][0] * n + pull.edge_along[k][1] * m);
+              at_edge = derivative.edge[k][0] * n + derivative.edge[k][1] * m;
+    out.on_wall += derivative.push[k] * n + at_edge;
+    out.moment += foot.cross(derivative.push[k] * n) +
+                  (derivative.inward[k] * m + derivative.along[k] * axis).cross(n) + place.cross(at_edge) +
+                  axis.cross(derivative.edge_along[k][0] * n + derivative.edge_along[k][1] * m);
   }
   return out;
 }
@@ -764,8 +769,8 @@ TEST(WallPaths, AreThoseOfEdgesThatMoveInTheirLoops) {
     const auto place_edges = [&](const WallPaths& paths) {
       for (std::size_t i = 0; i < n; ++i) {
         if (!edges[i]) continue;
-        paths.place(sheets[i]);
-        crowd.edges[i] = paths.placed(*edges[i], sheets[i]), crowd.edge[i] = &crowd.edges[i];
+        paths.update(sheets[i]);
+        crowd.edges[i] = paths.current(*edges[i], sheets[i]), crowd.edge[i] = &crowd.edges[i];
       }
     };
     for (std::size_t i = 0; i < n; ++i) {
@@ -773,18 +778,18 @@ TEST(WallPaths, AreThoseOfEdgesThatMoveInTheirLoops) {
       edges[i] = searched.moving_edge_about(sheets[i], crowd.at(i), 2 * h);
     }
     WallMirrorArrays a = crowd.arrays(searched.shift());
-    std::vector<WallEdgePull> pulls(n);
-    std::vector<std::uint32_t> ways(crowd.list.size());
-    a.pull = pulls.data(), a.ways = ways.data();
+    std::vector<WallEdgeReaction> derivatives(n);
+    std::vector<std::uint32_t> edge_paths(crowd.list.size());
+    a.reaction = derivatives.data(), a.edge_paths = edge_paths.data();
     const NeighbourLists lists{crowd.list.data(), crowd.start.data(), 0, static_cast<Index>(n)};
     place_edges(middle), edge_rates_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
     place_edges(end), edge_forces_loop(KernelChoice::cubic_spline, place.dim)(a, lists);
     int looked = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      if (!edges[i] || crowd.strange[i] != 0) continue;
+      if (!edges[i] || crowd.skipped[i] != 0) continue;
       ++looked;
-      const Exchange exact = by_moving_ways(middle, end, sheets[i], crowd, i, place.dim),
-                     edge = of_edge(crowd.edges[i], pulls[i], crowd.at(i));
+      const Exchange exact = by_moving_paths(middle, end, sheets[i], crowd, i, place.dim),
+                     edge = of_edge(crowd.edges[i], derivatives[i], crowd.at(i));
       const Real scale =
           1e-4 / (h * h * h * (place.dim == 2 ? 1 : h));  // oneself is seen from positions aside
       EXPECT_NEAR(crowd.drhodt[i], exact.rate, 4 * scale) << place.name << ": " << crowd.at(i).transpose();

@@ -223,7 +223,7 @@ TEST(WallSurface, LeavesOutNothingThatParticlesCanSee) {
   const GhostPlane period{GhostPlane::Kind::periodic, Vec::Zero(), Vec(1, 0, 0), 20};
   const GhostPlane mirror{GhostPlane::Kind::mirror, Vec(19.98, 0, 0), Vec(-1, 0, 0), 0};
   for (const std::vector<GhostPlane>& planes : {std::vector<GhostPlane>{}, {period}, {mirror}}) {
-    const Lookouts from(p, 2 * h, planes);
+    const OccupiedCells from(p, 2 * h, planes);
     const WallSurface whole(world, all, h / 4, 2 * h, planes), seen(world, all, h / 4, 2 * h, planes, &from);
     EXPECT_LT(seen.points(), whole.points() / 4);
     for (const Vec& x : places) {
@@ -310,18 +310,18 @@ TEST(WallSupport, AFloorMayEndAtAMirror) {
                     through = on_floor(support + mirror);
   std::string ends = through;
   for (const std::string node : {"9001", "9004"}) ends.replace(ends.find(node + ",-2."), 8, node + ",0.0");
-  std::vector<Real> fill, pull;
+  std::vector<Real> fill, derivative;
   for (const std::string& text : {through, ends}) {
     const auto s = test::build_deck(text);
     std::string who;
     s->evaluate(who);
     Particles& p = s->world().particles;
     fill.push_back(sph_fields::wall_fill(p)[at(p, Vec(0.05, 0.05, 0))]);
-    pull.push_back(sph_fields::wall_slope(p).vec(at(p, Vec(0.05, 0.05, 0)))[1]);
+    derivative.push_back(sph_fields::wall_slope(p).vec(at(p, Vec(0.05, 0.05, 0)))[1]);
   }
   EXPECT_NEAR(fill[0], volume(Vec(0.05, 0.05, 0), [](const Vec& place) { return place[1] < 0; }), 2e-3);
   EXPECT_NEAR(fill[1], fill[0], 1e-3);
-  EXPECT_NEAR(pull[1], pull[0], 1e-3 * std::abs(pull[0]));
+  EXPECT_NEAR(derivative[1], derivative[0], 1e-3 * std::abs(derivative[0]));
 }
 
 TEST(WallSupport, AUniformPressureDoesNotMoveTheLowestRow) {
@@ -381,8 +381,8 @@ TEST(WallSupport, FrictionIsHalfRhoVSquaredTimesCf) {
   EXPECT_NEAR(drag / (-0.5 * 1000 * 4 * 0.004 * 1.2), 1, 0.02);
 }
 
-/// The force along an upright wall whose upper edge is under the lowest row, on the column that rises `past`
-/// beside its plane.
+/// The force along an orthogonal wall whose upper edge is under the lowest row, on the column that rises
+/// `past` beside its plane.
 Real rubbed_by_a_wall_below(Real past) {
   test::SmallScene scene;
   scene.material = "1,1000.,-1.E20,1.E-3";

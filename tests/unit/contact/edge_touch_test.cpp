@@ -38,6 +38,18 @@ TEST(EdgeTouch, ForcesAreInBalanceAndOfTheSofterEdge) {
   }
 }
 
+// SOFT 1: at least SOFSCL m/(2 dt^2), m the lightest node, dt DTSTIF, or the longest step so far, of 0.005.
+TEST(EdgeTouch, SoftOneTakesTheStifferOfEdgeAndMass) {
+  for (const Real dtstif : {0.0, 0.01, 10.0}) {
+    EdgeScene s;
+    s.law.soft = 1, s.law.sofscl = 0.2, s.law.dtstif = dtstif;
+    s.build();
+    s.come(Vec::Zero());
+    const Real dt = dtstif > 0 ? dtstif : 0.005, soft = 0.2 * 0.5 * 1 / (dt * dt);
+    EXPECT_NEAR(s.sampled().contact, 0.5 * std::max(soft, k) * 0.004 * 0.004, 1e-12) << dtstif;
+  }
+}
+
 // What is nearer than both radii from the start gives no force, but what comes on top of that.
 TEST(EdgeTouch, DepthOfTheStartGivesNoForce) {
   EdgeScene s;

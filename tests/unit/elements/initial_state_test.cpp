@@ -127,12 +127,16 @@ TEST(InitialStressOfSolids, SaysThatTheMaterialYields) {
       << diagnostics.text();
 }
 
-/// A square of side 1, 0.1 thick, in the plane through x and `up`, that moves along x at x = 1 alone.
+/// A square of side 1, 0.1 thick, in the plane through x and `up`, that moves along x at x = 1 alone; "yz":
+/// in that plane, along y.
 std::string sheet(const std::string& stress, const std::string& up = "y", int elform = 2, int nip = 5) {
   const auto at = [&](int x, int y) {
-    return up == "y" ? fmt::format("{}.,{}.,0.", x, y) : fmt::format("{}.,0.,{}.", x, y);
+    return up == "y"   ? fmt::format("{}.,{}.,0.", x, y)
+           : up == "z" ? fmt::format("{}.,0.,{}.", x, y)
+                       : fmt::format("0.,{}.,{}.", x, y);
   };
-  return "*KEYWORD\n*NODE\n1," + at(0, 0) + ",7,7\n2," + at(1, 0) + ",5,7\n3," + at(1, 1) + ",5,7\n4," +
+  const std::string free = up == "yz" ? ",6,7\n" : ",5,7\n";
+  return "*KEYWORD\n*NODE\n1," + at(0, 0) + ",7,7\n2," + at(1, 0) + free + "3," + at(1, 1) + free + "4," +
          at(0, 1) + ",7,7\n*ELEMENT_SHELL\n1,1,1,2,3,4\n*PART\nsheet\n1,1,1\n" +
          fmt::format("*SECTION_SHELL\n1,{},1.,{}\n0.1\n", elform, nip) + steel +
          "*CONTROL_TERMINATION\n1.\n*CONTROL_TIMESTEP\n0.,0.1\n" + stress + "*END\n";
@@ -140,15 +144,16 @@ std::string sheet(const std::string& stress, const std::string& up = "y", int el
 
 TEST(InitialStressOfShells, ReleasesItsEnergy) {
   for (const int elform : {2, 16})
-    for (const char* up : {"y", "z"}) {
-      const auto s =
-          build_deck(sheet("*INITIAL_STRESS_SHELL\n1,1,1\n0.,1.E5,0.,0.,0.,0.,0.,0.\n", up, elform), false);
+    for (const std::string up : {"y", "z", "yz"}) {
+      const int along = up == "yz";
+      const std::string stress = along == 1 ? "0.,0.,1.E5,0.,0.,0.,0.,0.\n" : "0.,1.E5,0.,0.,0.,0.,0.,0.\n";
+      const auto s = build_deck(sheet("*INITIAL_STRESS_SHELL\n1,1,1\n" + stress, up, elform), false);
       ASSERT_TRUE(s);
       std::string limit;
       s->evaluate(limit);
       EXPECT_NEAR(s->sample("").energy.internal, 0.1 * 0.5 * sigma * sigma / E, 1e-9 * sigma * sigma / E);
       run(*s, pi / std::sqrt(2 * E / rho));
-      EXPECT_NEAR(s->world().nodes.x.vec(node(*s, 2))[0] - 1, -2 * sigma / E, 0.005 * 2 * sigma / E);
+      EXPECT_NEAR(s->world().nodes.x.vec(node(*s, 2))[along] - 1, -2 * sigma / E, 0.005 * 2 * sigma / E);
     }
 }
 

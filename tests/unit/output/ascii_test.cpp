@@ -183,6 +183,21 @@ TEST(Histories, EachFileAtItsOwnInterval) {
   EXPECT_TRUE(std::filesystem::exists(dir / "history.h5"));
 }
 
+// External work of glstat counts from the potential energy of the start of the run, 4, also behind a restart.
+TEST(Histories, ARestartKnowsThePotentialEnergyOfTheStart) {
+  for (const bool restarted : {false, true}) {
+    ScratchFolder dir;
+    HistoryPositions before;
+    before.first_potential = {4};
+    Histories histories(dir.path(), asked({{"glstat", 0.25}}, "channel"), restarted ? &before : nullptr);
+    histories.write(made_sample(), true);
+    histories.finish();
+    const std::string of_work = restarted ? "2.20000E+01" : "2.50000E+01";  // 25 + 4 - 7, or + 7 - 7
+    EXPECT_NE(test::read_text(dir / "glstat").find("external work..................   " + of_work),
+              std::string::npos);
+  }
+}
+
 TEST(Histories, TakenSamplesCanBeWrittenLater) {
   ScratchFolder dir;
   Histories histories(dir.path(), asked({{"glstat", 0.25}, {"rcforc", 0.5}}, "channel"));

@@ -250,6 +250,9 @@ TEST(BodyTerms, IrigidReplacesTheVelocityOfAGivenInertia) {
   expect(plain("8", "-1"), own, own_omega);
   expect(plain("8", "-2"), straight, Vec::Zero());
   expect(plain("0", "0"), own, own_omega);
+  // ICID: x along y, y along z, z along x
+  const std::string system = "*DEFINE_COORDINATE_SYSTEM\n9,0,0,0,0,1,0\n0,0,1\n";
+  expect(plain("0", "-2,9") + system, Vec(7, 5, 6), Vec::Zero());
   expect(plain("0", "-2") + generation("0,1", "1"), spun, omega);
   expect(generation("0,1", "1") + "*INITIAL_VELOCITY_RIGID_BODY\n1,1.0,1.0,1.0\n", Vec(1, 1, 1), Vec::Zero());
 }

@@ -341,7 +341,7 @@ std::string form(int number) {
   return fmt::format(",0,{}", number);
 }
 
-/// Places after some steps of a drop of water on a mirror.
+/// Positions after some steps of a drop of water on a mirror.
 std::vector<Vec> places(int number, const std::string& more = "") {
   test::SmallScene scene;
   scene.n = 10, scene.control_sph = form(number), scene.start = "0.3,-1.,0.";

@@ -15,10 +15,10 @@ namespace {
 
 using test::run;
 
-using Places = std::vector<std::array<double, 2>>;
+using Positions = std::vector<std::array<double, 2>>;
 
 /// Particles of density 1000 and the given mass. `sphini`: smoothing length [L], 0: from the spacing.
-std::string deck_of(const Places& places, Real mass, const std::string& more, Real sphini = 0) {
+std::string deck_of(const Positions& places, Real mass, const std::string& more, Real sphini = 0) {
   std::string text = fmt::format(
       "*KEYWORD\n*CONTROL_TERMINATION\n50.\n*CONTROL_SPH\n1,0,1e20,2\n0,0,0,0,0,0,0\n*PART\nwater\n1,1,1,1,"
       "1\n"
@@ -35,8 +35,8 @@ std::string deck_of(const Places& places, Real mass, const std::string& more, Re
 }
 
 /// 10 x 10 places 0.1 apart; a particle of 10 would fit that spacing.
-Places square(double x0, double y0) {
-  Places out;
+Positions square(double x0, double y0) {
+  Positions out;
   for (int k = 0; k < 100; ++k) out.push_back({x0 + 0.1 * (k % 10), y0 + 0.1 * (k / 10)});
   return out;
 }
@@ -88,9 +88,9 @@ TEST(VolumeControl, LeavesASurfaceAlone) {
 
 /// A drop of one particle, one of two in nearly the same position, and a row.
 TEST(VolumeControl, LeavesSprayAlone) {
-  Places places{{0, 0}, {5, 0}, {5.002, 0}, {0, 5}, {0.1, 5}, {0.2, 5}, {0.3, 5}, {0.4, 5}};
+  Positions places{{0, 0}, {5, 0}, {5.002, 0}, {0, 5}, {0.1, 5}, {0.2, 5}, {0.3, 5}, {0.4, 5}};
   const auto spray = static_cast<Id>(places.size());
-  const Places block = square(20, 0);
+  const Positions block = square(20, 0);
   places.insert(places.end(), block.begin(), block.end());
   const auto s = test::build_deck(deck_of(places, 10, control(0.01), 0.12));
   run(*s, 0.002);

@@ -73,6 +73,63 @@ def bars(n: int = 20, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0,
     return deck.history([1], deck.end / 200)
 
 
+def bounce(n: int = 2, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, scale: float = 1.0, tssfac: float = 0.9, degrees: float = 0.0, v0: float = 1.0, L: float = 0.1,
+           E: float = 2.1e9) -> DeckBuilder:
+    """A rigid cube, turned by an angle about y, flies at a rigid plate; its middle is above the place that it strikes if it is turned by 0 or 45 degrees."""
+    deck = DeckBuilder("bouncing cube", 0.1 * L / v0)
+    deck.card("*SECTION_SOLID", [1, 1]).card("*SECTION_SHELL", [2, 2], [0.01] * 4).card("*CONTROL_TIMESTEP", [0, tssfac])
+    deck.card("*MAT_RIGID", [1, 2000.0, E, 0.3], [0], "").card("*PART", "cube", [1, 1, 1])
+    deck.card("*MAT_RIGID", [2, 7850.0, E, 0.3], [1, 7, 7], "").card("*PART", "plate", [2, 2, 2])
+    a = np.radians(degrees)
+    high = 0.5 * L * (np.cos(a) + np.sin(a)) + 0.005 + 0.02 * L
+    turn = np.array([[np.cos(a), 0, np.sin(a)], [0, 1, 0], [-np.sin(a), 0, np.cos(a)]])
+    deck.mesh("SOLID", 1, grid([n, n, n], lambda u: L * (u - 0.5) @ turn.T + [0, 0, high]))
+    deck.mesh("SHELL", 2, grid([4, 4], lambda u: np.column_stack([3 * L * (u - 0.51), np.zeros(len(u))])))
+    deck.card("*INITIAL_VELOCITY_RIGID_BODY", [1, 0.0, 0.0, -v0])
+    _contact(deck, kind, 0.0, soft, scale=scale)
+    deck.card("*DATABASE_MATSUM", [deck.end / 200]).card("*DATABASE_RBDOUT", [deck.end / 200]).card("*DATABASE_GLSTAT", [deck.end / 200])
+    return deck
+
+
+def roll(n: int = 8, kind: str = "AUTOMATIC_SURFACE_TO_SURFACE", soft: int = 0, scale: float = 1.0, mu: float = 0.5, degrees: float = 10.0, R: float = 0.05, g: float = 9.81,
+         T: float = 0.5, gap: float = 0.0) -> DeckBuilder:
+    """A rigid wheel, a polygon of 4 n sides, rolls down a slope, which is turned level: gravity is turned instead. It begins `gap` above it."""
+    deck = DeckBuilder("rolling wheel", T)
+    deck.card("*SECTION_SOLID", [1, 1]).card("*SECTION_SHELL", [2, 2], [0.01] * 4)
+    deck.card("*MAT_RIGID", [1, 2000.0, 2.1e9, 0.3], [1, 2, 6], "").card("*PART", "wheel", [1, 1, 1])
+    deck.card("*MAT_RIGID", [2, 7850.0, 2.1e9, 0.3], [1, 7, 7], "").card("*PART", "slope", [2, 2, 2])
+
+    def mapped(u: np.ndarray) -> np.ndarray:
+        v = np.tan(0.25 * np.pi * (2 * u[:, :2] - 1))  # equal sides around
+        most, length = np.abs(v).max(axis=1), np.maximum(np.linalg.norm(v, axis=1), 1e-12)
+        return np.column_stack([R * most * v[:, 0] / length, 0.02 * (u[:, 2] - 0.5), R * most * v[:, 1] / length])
+
+    wheel = grid([n, n, 1], mapped)
+    wheel = wheel._replace(points=wheel.points + [0, 0, 0.005 + gap - wheel.points[:, 2].min()], cells=wheel.cells[:, [4, 5, 6, 7, 0, 1, 2, 3]])  # right-handed
+    deck.mesh("SOLID", 1, wheel)
+    deck.mesh("SHELL", 2, grid([20, 2], lambda u: np.column_stack([0.5 * u[:, 0] - 0.1, 0.1 * (u[:, 1] - 0.5), 0 * u[:, 0]])))
+    _contact(deck, kind, mu, soft, scale=scale)
+    a = np.radians(degrees)
+    deck.gravity(g * float(np.cos(a)))
+    deck.card("*LOAD_BODY_X", [91, -g * float(np.sin(a))])
+    deck.card("*DATABASE_RBDOUT", [T / 200]).card("*DATABASE_GLSTAT", [T / 200])
+    return deck
+
+
+def cross(n: int = 4, kind: str = "AUTOMATIC_GENERAL", soft: int = 0, scale: float = 1.0, tssfac: float = 0.9, L: float = 0.2, h: float = 0.01, v0: float = 1.0) -> DeckBuilder:
+    """A rigid strip on edge falls across an equal one and strikes its edge in the middle; both are free."""
+    deck = DeckBuilder("edge on edge", 0.5 * h / v0)
+    deck.card("*SECTION_SHELL", [1, 2], [h] * 4).card("*CONTROL_TIMESTEP", [0, tssfac])
+    for part, low, middle in ((1, 1.05 * h, 0.49), (2, -0.05, 0.51)):
+        deck.card("*MAT_RIGID", [part, 2000.0, 2.1e9, 0.3], [0], "").card("*PART", "strip", [part, 1, part])
+        along = np.eye(3)[part - 1]
+        deck.mesh("SHELL", part, grid([n, 1], lambda u: L * (u[:, :1] - middle) * along + np.column_stack([0 * u, low + 0.05 * u[:, 1]])))
+    deck.card("*INITIAL_VELOCITY_RIGID_BODY", [1, 0.0, 0.0, -v0])
+    _contact(deck, kind, 0.0, soft, scale=scale)
+    deck.card("*DATABASE_MATSUM", [deck.end / 200]).card("*DATABASE_GLSTAT", [deck.end / 200])
+    return deck
+
+
 def hertz(n: int = 6, kind: str = "RIGIDWALL", soft: int = 0, scale: float = 1.0, ihq: int = 5, qm: float = 0.05, R: float = 0.01, E: float = 2.1e11, nu: float = 0.3, rho: float = 7800.0,
           v0: float = 10.0) -> DeckBuilder:
     """An elastic ball of n^3 elements in its middle and six caps flies against a rigid plane, z = 0; node 1 is its middle."""

@@ -28,6 +28,27 @@ def of_an_edge(n: int) -> np.ndarray:
     return out
 
 
+def rod(deck: DeckBuilder, kind: str, elform: int, n: int, L: float, h: float, nip: int = 2, qr: int = 2, deep: int = 2, finer: int = 4, at: float = 1.0, to=None):
+    """Part 1 along x, of length L and square section h: n beams or shells, or `finer` n solids along it and `deep` over its height. Its mesh, numbers of its
+    nodes, and shares of a load on an end. Node 1 is at `at` of the length; `to` takes positions along the unit line to others."""
+    def along(u: np.ndarray) -> np.ndarray:
+        return L * (u[:, 0] if to is None else to(u[:, 0]))
+
+    if kind == "BEAM":
+        by_points, resultant = [h] * 4, [h * h, h**4 / 12, h**4 / 12, 0.1406 * h**4, 5 / 6 * h * h]
+        deck.card("*SECTION_BEAM", [1, elform, 5 / 6, qr, 0], {1: by_points, 2: resultant, 3: [h * h]}[elform])
+        mesh = grid([n], lambda u: np.column_stack([along(u), 0 * u, 0 * u]))
+        ids = deck.nodes(mesh.points, [mesh.nearest(at)])
+        third = deck.nodes(np.array([[0.5 * L, L, 0]]))
+        deck.elements("BEAM", 1, np.column_stack([ids[mesh.cells], np.full(n, third[0])]))
+        return mesh, ids, None
+    section(deck, kind, elform, h, nip)
+    mesh = grid([n, 1] if kind == "SHELL" else [finer * n, 1, deep],
+                lambda u: np.column_stack([along(u), h * (u[:, 1] - 0.5), h * (u[:, 2] - 0.5) if kind == "SOLID" else 0 * u[:, 0]]))
+    ids = deck.mesh(kind, 1, mesh, [mesh.nearest(*([at, 0] if kind == "SHELL" else [at, 0, 0.5]))])
+    return mesh, ids, None if kind == "SHELL" else np.outer(of_an_edge(deep), [1, 1]).ravel()
+
+
 def cantilever(n: int = 16, kind: str = "SOLID", elform: int = 1, ihq: int = 0, qm: float = 0.1, nip: int = 3, across: int = 2, nu: float = 0.0,
                L: float = 1.0, h: float = 0.1, E: float = 2.1e11, rho: float = 7850.0, P: float = 1000.0) -> DeckBuilder:
     """A square bar that is clamped at one end and bent by a force P at the other; `across` elements over its height and width."""
@@ -75,6 +96,20 @@ def cook(n: int = 16, elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int =
     deck.hold(ids, "zXY").hold(ids[clamped], "xyZ")
     deck.settle(0.011)
     deck.load(ids[mesh.where(0, 1)], 2, 1e-3, of_an_edge(n))
+    return deck.history([1], deck.end / 200)
+
+
+def cook_solid(n: int = 16, elform: int = 1, ihq: int = 0, qm: float = 0.1, nu: float = 0.4999) -> DeckBuilder:
+    """The same membrane of solids, one over its thickness and strained in the plane, nearly incompressible."""
+    deck = DeckBuilder("Cook's membrane in plane strain", 1)
+    section(deck, "SOLID", elform, 0, 0)
+    part(deck, "membrane", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, 1.0, 1.0, nu])
+    mesh = grid([n, n, 1], lambda u: np.column_stack([48 * u[:, 0], 44 * u[:, 0] + u[:, 1] * (44 - 28 * u[:, 0]), u[:, 2]]))
+    ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(1, 0.5, 0)])
+    deck.hold(ids, "z").hold(ids[mesh.where(0, 0)], "xy")
+    deck.settle(0.011)
+    deck.load(ids[mesh.where(0, 1)], 2, 1e-3, np.outer([1, 1], of_an_edge(n)).ravel())
     return deck.history([1], deck.end / 200)
 
 
@@ -175,12 +210,12 @@ def taylor(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1) -> DeckBu
 
 
 def tube(n: int = 8, elform: int = 1, ihq: int = 0, qm: float = 0.1, nu: float = 0.3, a: float = 1.0, b: float = 2.0, E: float = 2.1e11,
-         p: float = 1e7) -> DeckBuilder:
-    """A quarter of a thick tube under pressure from inside, strained in the plane; n elements over the wall."""
+         p: float = 1e7, SIGY: float = 0.0) -> DeckBuilder:
+    """A quarter of a thick tube under pressure from inside, strained in the plane; n elements over the wall. It yields at SIGY, where given."""
     deck, rho = DeckBuilder("thick tube", 1), 7850.0
     section(deck, "SOLID", elform, 0, 0)
     part(deck, "tube", ihq, qm)
-    deck.card("*MAT_ELASTIC", [1, rho, E, nu])
+    deck.card(*(("*MAT_PLASTIC_KINEMATIC", [1, rho, E, nu, SIGY, 0.0, 1.0]) if SIGY else ("*MAT_ELASTIC", [1, rho, E, nu])))
 
     def mapped(u: np.ndarray) -> np.ndarray:
         r, turn = a + (b - a) * u[:, 0], 0.5 * np.pi * u[:, 1]
@@ -217,18 +252,7 @@ def elastica(n: int = 8, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm:
     deck = DeckBuilder("elastica", 1)
     part(deck, "strip", ihq, qm)
     deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
-    if kind == "BEAM":
-        deck.card("*SECTION_BEAM", [1, elform, 5 / 6, 2, 0], [h] * 4 if elform == 1 else [h * h, h**4 / 12, h**4 / 12, 0.1406 * h**4, 5 / 6 * h * h])
-        mesh = grid([n], [L])
-        ids = deck.nodes(mesh.points, [n])
-        third = deck.nodes(np.array([[0.5 * L, L, 0]]))
-        deck.elements("BEAM", 1, np.column_stack([ids[mesh.cells], np.full(n, third[0])]))
-        weights = None
-    else:
-        section(deck, kind, elform, h, 2)
-        mesh = grid([n, 1] if kind == "SHELL" else [4 * n, 1, 2], lambda u: np.column_stack([L * u[:, 0], h * (u[:, 1] - 0.5), h * (u[:, 2] - 0.5) if kind == "SOLID" else 0 * u[:, 0]]))
-        ids = deck.mesh(kind, 1, mesh, [mesh.nearest(*([1, 0] if kind == "SHELL" else [1, 0, 0.5]))])
-        weights = None if kind == "SHELL" else np.outer([0.5, 1, 0.5], [1, 1]).ravel()
+    mesh, ids, weights = rod(deck, kind, elform, n, L, h)
     deck.hold(ids[mesh.where(0, 0)], "xyz" if kind == "SOLID" else "xyzXYZ")
     deck.settle(3.516 * np.sqrt(E * h**2 / 12 / rho) / L**2)
     deck.load(ids[mesh.where(0, 1)], 3, load * E * h**4 / 12 / L**2, weights)
@@ -262,17 +286,9 @@ def column(n: int = 8, kind: str = "BEAM", elform: int = 1, ihq: int = 0, qm: fl
     deck = DeckBuilder("column", 2.4 * 2 * np.pi / omega / np.sqrt(1 - part_of_euler))
     part(deck, "column", ihq, qm)
     deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh, ids, _ = rod(deck, kind, elform, n, L, h, at=0.5)
     if kind == "BEAM":
-        deck.card("*SECTION_BEAM", [1, elform, 5 / 6, 2, 0], [h] * 4 if elform == 1 else [h * h, h**4 / 12, h**4 / 12, 0.1406 * h**4, 5 / 6 * h * h])
-        mesh = grid([n], [L])
-        ids = deck.nodes(mesh.points, [mesh.nearest(0.5)])
-        third = deck.nodes(np.array([[0.5 * L, L, 0]]))
-        deck.elements("BEAM", 1, np.column_stack([ids[mesh.cells], np.full(n, third[0])]))
         deck.hold(ids, "yXZ")
-    else:
-        section(deck, kind, elform, h, 2)
-        mesh = grid([n, 1], lambda u: np.column_stack([L * u[:, 0], h * (u[:, 1] - 0.5), 0 * u[:, 0]]))
-        ids = deck.mesh(kind, 1, mesh, [mesh.nearest(0.5, 0)])
     deck.hold(ids[mesh.where(0, 0)], "xyz").hold(ids[mesh.where(0, 1)], "yz")
     deck.curve(90, [(0.0, 1.0), (1e6, 1.0)])
     deck.load(ids[mesh.where(0, 1)], 1, -part_of_euler * np.pi**2 * E * h**4 / 12 / L**2)
@@ -350,13 +366,86 @@ def rubber(n: int = 4, elform: int = 1, ihq: int = 0, qm: float = 0.1, a: float 
 
 def wave(n: int = 50, elform: int = 1, ihq: int = 0, qm: float = 0.1, q1: float = 1.5, q2: float = 0.06, L: float = 1.0, h: float = 0.02, E: float = 2.1e11,
          rho: float = 7850.0, SIGY: float = 4e8, ETAN: float = 2.1e10, v0: float = 30.0, T: float = 1.5e-4) -> DeckBuilder:
-    """A thin bar strikes a rigid wall; an elastic wave runs ahead of a plastic one."""
+    """A thin bar of width h (0: of cubes) strikes a rigid wall; an elastic wave runs ahead of a plastic one."""
     deck = DeckBuilder("plastic wave", T)
     section(deck, "SOLID", elform, 0, 0)
     part(deck, "bar", ihq, qm)
     deck.card("*MAT_PLASTIC_KINEMATIC", [1, rho, E, 0.0, SIGY, ETAN, 1.0]).card("*CONTROL_BULK_VISCOSITY", [q1, q2, 1])
-    mesh = grid([n, 1, 1], [L, h, h])
+    mesh = grid([n, 1, 1], [L, h or L / n, h or L / n])
     ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(1, 0, 0)])
     deck.card("*INITIAL_VELOCITY_NODE", *([int(i), -v0, 0.0, 0.0] for i in ids)).card("*RIGIDWALL_PLANAR", [0], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0])
     deck.card("*DATABASE_MATSUM", [T / 300])
     return deck.history([1], T / 300)
+
+
+def vibration(n: int = 8, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, tssfac: float = 0.9, short: float = 1.0, scaled: int = 0,
+              L: float = 1.0, h: float = 0.04, E: float = 2.1e11, rho: float = 7850.0) -> DeckBuilder:
+    """A cantilever that begins to swing in its first mode. Its first element is `short` times as long as the others, whose step mass scaling keeps where `scaled`."""
+    c = np.sqrt(E / rho)
+    omega = 3.516 * c * h / np.sqrt(12) / L**2
+    deck = DeckBuilder("swinging cantilever", 2.4 * 2 * np.pi / omega)
+    part(deck, "strip", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    deck.card("*CONTROL_TIMESTEP", [0, tssfac, 0, 0.0, -0.9 * min(L / (n - 1 + short), h) / c if scaled else 0.0])
+    mesh, ids, _ = rod(deck, kind, elform, n, L, h, to=lambda u: np.maximum(0.0, (u * n - 1 + short) / (n - 1 + short)) * (u > 1e-9))
+    deck.hold(ids[mesh.where(0, 0)], "xyz" if kind == "SOLID" else "xyzXYZ")
+    k, ratio = 1.8751041, 0.7340955
+    x = mesh.points[:, 0] / L
+    shape = np.cosh(k * x) - np.cos(k * x) - ratio * (np.sinh(k * x) - np.sin(k * x))
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), 0.0, 0.0, float(5e-4 * omega * L * s)] for i, s in zip(ids, shape) if s > 1e-9))
+    return deck.history([1], deck.end / 400)
+
+
+def struck(n: int = 20, kind: str = "SOLID", elform: int = 1, ihq: int = 0, qm: float = 0.1, q1: float = 1.5, q2: float = 0.06, tssfac: float = 0.9, L: float = 1.0,
+           h: float = 0.05, E: float = 2.1e11, rho: float = 7850.0, v0: float = 1.0, heavy: float = 1.0) -> DeckBuilder:
+    """A mass, `heavy` times that of a rod, strikes its end; the other one is held."""
+    deck = DeckBuilder("struck rod", 1.95 * L / np.sqrt(E / rho))
+    part(deck, "rod", ihq, qm)
+    deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*CONTROL_BULK_VISCOSITY", [q1, q2, 1]).card("*CONTROL_TIMESTEP", [0, tssfac])
+    mesh, ids, weights = rod(deck, kind, elform, n, L, h, deep=1, finer=1)
+    deck.hold(ids[mesh.where(0, 0)], "xyz" if kind == "SOLID" else "xyzXYZ")
+    end = ids[mesh.where(0, 1)]
+    deck.card("*ELEMENT_MASS", *([100000 + k, int(i), heavy * rho * h * h * L / len(end)] for k, i in enumerate(end)))
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), -v0, 0.0, 0.0] for i in end))
+    return deck.history([1], deck.end / 400)
+
+
+def yielding(n: int = 16, kind: str = "SHELL", elform: int = 2, ihq: int = 0, qm: float = 0.1, bwc: int = 2, nip: int = 5, qr: int = 5, deep: int = 4, finer: int = 2,
+             L: float = 1.0, h: float = 0.05, E: float = 2.1e11, rho: float = 7850.0, SIGY: float = 2.1e8, load: float = 1.3) -> DeckBuilder:
+    """A cantilever without hardening under a force at its end, `load` times that at which it begins to yield; it would collapse at 1.5."""
+    deck = DeckBuilder("yielding cantilever", 1)
+    part(deck, "strip", ihq, qm)
+    deck.card("*MAT_PLASTIC_KINEMATIC", [1, rho, E, 0.0, SIGY, 0.0, 1.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh, ids, weights = rod(deck, kind, elform, n, L, h, nip=nip, qr=qr, deep=deep, finer=finer)
+    deck.hold(ids[mesh.where(0, 0)], "xyz" if kind == "SOLID" else "xyzXYZ")
+    deck.settle(3.516 * np.sqrt(E * h**2 / 12 / rho) / L**2)
+    deck.load(ids[mesh.where(0, 1)], 3, load * SIGY * h**3 / 6 / L, weights)
+    return deck.history([1], deck.end / 200)
+
+
+def laminate(n: int = 8, elform: int = 2, layers: int = 1, bwc: int = 1, L: float = 1.0, h: float = 0.02, E: float = 7e10, core: float = 0.1, rho: float = 2700.0,
+             w: float = 0.1, P: float = 500.0) -> DeckBuilder:
+    """A strip of three layers, the middle half of its height `core` times as stiff, bent by a force at its end; each layer in `layers` pieces, of one point each."""
+    deck = DeckBuilder("laminate", 1)
+    deck.card("*PART_COMPOSITE", "strip", [1, elform, 5 / 6], *([2 if k in (1, 2) else 1, h / 4 / layers, 0.0, None] for k in range(4) for _ in range(layers)))
+    deck.card("*MAT_ELASTIC", [1, rho, E, 0.0]).card("*MAT_ELASTIC", [2, rho, core * E, 0.0]).card("*CONTROL_SHELL", [20, 0, -1, 0, 2, bwc])
+    mesh = grid([n, 1], lambda u: np.column_stack([L * u[:, 0], w * (u[:, 1] - 0.5), 0 * u[:, 0]]))
+    ids = deck.mesh("SHELL", 1, mesh, [mesh.nearest(1, 0)])
+    deck.hold(ids[mesh.where(0, 0)], "xyzXYZ")
+    deck.settle(3.516 * np.sqrt(E * (7 + core) / 8 * h**2 / 12 / rho) / L**2)
+    deck.load(ids[mesh.where(0, 1)], 3, P)
+    return deck.history([1], deck.end / 200)
+
+
+def shock(n: int = 50, elform: int = 1, q1: float = 1.5, q2: float = 0.06, tssfac: float = 0.9, L: float = 0.1, rho: float = 8930.0, C: float = 3940.0,
+          S1: float = 1.489, GAMMA0: float = 2.0, v0: float = 500.0) -> DeckBuilder:
+    """A column of metal without strength, which cannot widen, runs against a rigid wall."""
+    deck = DeckBuilder("shock", 0.7 * L / (C + S1 * v0))
+    deck.card("*SECTION_SOLID", [1, elform]).card("*PART", "column", [1, 1, 1, 1]).card("*MAT_NULL", [1, rho, -1e20])
+    deck.card("*EOS_GRUNEISEN", [1, C, S1, 0.0, 0.0, GAMMA0], [1.0]).card("*CONTROL_BULK_VISCOSITY", [q1, q2, 1]).card("*CONTROL_TIMESTEP", [0, tssfac])
+    mesh = grid([n, 1, 1], [L, L / n, L / n])
+    ids = deck.mesh("SOLID", 1, mesh, [mesh.nearest(0.3, 0, 0)])
+    deck.hold(ids, "yz").hold(ids[mesh.where(0, 0)], "x")
+    deck.card("*INITIAL_VELOCITY_NODE", *([int(i), -v0, 0.0, 0.0] for i, x in zip(ids, mesh.unit[:, 0]) if x > 1e-9))
+    deck.card("*DATABASE_MATSUM", [deck.end / 400])
+    return deck.history([1], deck.end / 400)

@@ -18,6 +18,7 @@ from .openings import Inlet, Outlet, add_openings, with_outlets
 from .structures import Structure, add_structures
 
 WATER_PART, WALL_PART = 1, 11
+_REACH = 6  # spacings: more than that of the kernel
 
 # Filled like the keywords of a scene; the names are those of `Basin.variables`.
 _CARDS = """\
@@ -164,13 +165,17 @@ class Basin:
             return ""
         factor = 20.0  # a blow squeezes the liquid by speed / sound speed
         v = self.water.velocity or (0.0, 0.0, 0.0)
-        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets)]
-        speed = math.sqrt(max(0.0, 2 * self.gravity * (top - bottom) + max(squares)))
-        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula and not inlet.held for inlet in self.inlets):
+        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets), *(speed**2 for speed in self.speeds_of_walls())]
+        speed = math.sqrt(2 * self.gravity * max(0.0, top - bottom) + max(squares))
+        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula and not inlet.held for inlet in self.inlets) or not math.isfinite(speed):
             return "'sound_speed' is missing: it follows only from gravity, one velocity of all the water and steady inlets; give twenty times the largest speed"
         digits = math.pow(10, math.floor(math.log10(factor * speed)) - 1)  # two of them
         self.sound_speed = math.ceil(factor * speed / digits - 1e-9) * digits
         return ""
+
+    def speeds_of_walls(self) -> list[float]:
+        """Of the points of walls that turn which are farthest from their axes [L/T]."""
+        return [solid.rotation.fastest(solid.shape, self.end) for solid in self.solids if solid.rotation is not None]
 
     def variables(self) -> Variables:
         """Of the cards."""
@@ -217,7 +222,8 @@ class Basin:
         """Hydrostatic pressure of water at rest on the floor of its box, or between walls of any shape, all of it with one surface."""
         up = self.dim - 1
         level = self.level if self.level is not None else self._level_in_box()
-        if level is None or not self.mirrors or self.gravity == 0 or not self.starts_at_rest:
+        flows = bool(self.inlets) and self.inlets[0].surface is not None and not self.water.velocity_of_place  # a channel
+        if level is None or not self.mirrors or self.gravity == 0 or not (self.starts_at_rest or flows):
             return None
         return PlaceExpression(f"{number_text(self.density * self.gravity)} * ({number_text(level)} - {'xyz'[up]})", self.water.where)
 
@@ -247,10 +253,24 @@ class Basin:
             edges[1][2], origin[2], n[1] = wide, -wide / 2, 1
         return Plate((origin[0], origin[1], origin[2]), (edges[0][0], edges[0][1], edges[0][2]), (edges[1][0], edges[1][1], edges[1][2]), (n[0], n[1]))
 
+    def _with_reaches(self) -> tuple[Vector, Vector]:
+        """The box, longer where a channel begins: its bed and banks act on the water that comes in as on that before it."""
+        assert self.box
+        low, high = list(self.box[0]), list(self.box[1])
+        for inlet in self.inlets:
+            if inlet.surface is not None:
+                axis = int(np.argmax(np.abs(inlet.direction)))
+                end = low if inlet.direction[axis] > 0 else high
+                end[axis] -= _REACH * self.spacing * inlet.direction[axis]
+        return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
     def walls(self) -> Part:
         assert self.box
         mesh = self.spacing / 2 if self.dim == 2 and not self.whole_depth else 2 * self.spacing
+        given = self.box
+        self.box = self._with_reaches()
         plates = [self.plate(k // 2, self.box[k % 2][k // 2], mesh) for k, side in enumerate(self.sides) if side not in self.open]
+        self.box = given
         return Part(id=WALL_PART, title="walls", section=2, material=2, merge=True, plates=[*plates])
 
 

@@ -12,10 +12,12 @@ from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_map, is_scalar
 from .basin import Basin, add_basin
 from .joints import joined_names
+from .meshes import BEAMS
 from .model import MOST_ENTITIES, Lattice, Model, Near, NearSurface, Vector
 from .node_reader import OF_PYTHON
 from .openings import check_inlets, read_openings
 from .placeholders import PlaceholderFault, substitute
+from .rotations import check_swept, read_rotation
 from .series import read_series
 from .shape_reader import ShapeReader
 from .shapes import Shape, faulty_edges
@@ -32,7 +34,7 @@ _WATER = keys_of_map(
     "pressure number",
 )
 _BOX = keys_of_map("box", "low vector!, high vector!, open list, motion @motion")
-_MOTION = keys_of_map("motion", "x text|list|@a curve, y text|list|@a curve, z text|list|@a curve, waves @waves")
+_MOTION = keys_of_map("motion", "x text|list|@a curve, y text|list|@a curve, z text|list|@a curve, waves @waves, rotation @a rotation")
 _OF_WALL = keys_of_map("a wall, besides its shape", "motion @motion")
 _OF_BODY = keys_of_map("a body, besides its shape", "density number, mass number, velocity list, hold any")
 _GOES_WITH_WATER = ("box", "walls", "bodies", "structures", "joints", "inlets", "outlets", "wall_method", "gravity", "end", "output")
@@ -66,6 +68,8 @@ class BasinReader(ShapeReader):
         inlets = self.get(root, "inlets")
         first = inlets.value[0] if inlets is not None and is_list(inlets) and inlets.value else None
         at = self.get(first, "at") if first is not None else None
+        if at is None and first is not None and (box := self.get(root, "box")) is not None:
+            at = self.get(box, "low")
         self.of_inlets = len(at.value) if at is not None and is_list(at) and len(at.value) in (2, 3) else 0
         basin = self.basin = self.read_water(water)
         if (gravity := self.get(root, "gravity")) is not None:
@@ -175,6 +179,9 @@ class BasinReader(ShapeReader):
             basin.open.add(name)
         before = len(self.pistons)
         basin.box_motion = self.read_motion(node, basin)
+        motion = self.get(node, "motion")
+        if motion is not None and is_map(motion) and self.get(motion, "rotation") is not None:
+            self.error(motion, "rotation: of a wall, and the box does not turn", "walls: [{box: {low: [0, 0], high: [1, 1]}, open: true, motion: {rotation: ...}}]")
         if any(piston.own_card for piston in self.pistons[before:]):
             self.error(self.get(node, "motion") or node, "box: a box neither turns as a flap nor absorbs waves", "make the wave maker a wall of its own")
 
@@ -184,7 +191,9 @@ class BasinReader(ShapeReader):
         if entry is None or not self.is_map(entry, "motion: {x: 0.05 * sin(2 * PI * TIME / 1.2)}", "motion"):
             return {}
         axes = _MOTION[: self.dim or 3]
-        self.check_keys(entry, "motion", (*axes, "waves"))
+        self.check_keys(entry, "motion", (*axes, "waves", "rotation"))
+        if self.get(entry, "rotation") is not None:
+            return {}  # which `read_solids` reads
         out: dict[str, str | np.ndarray] = {}
         made: str | np.ndarray
         before = len(self.pistons)
@@ -207,11 +216,23 @@ class BasinReader(ShapeReader):
             self.error(entry, "motion: a flap, and a wave maker that absorbs, has no other motion", "leave out the formulas")
         return out
 
-    def _formula(self, node: Node) -> str | None:
+    def _rotation(self, entry: Node, solid: Solid, basin: Basin) -> None:
+        """Of a wall."""
+        motion = self.get(entry, "motion")
+        node = self.get(motion, "rotation") if motion is not None and is_map(motion) else None
+        if node is None or motion is None:
+            return
+        if len(motion.value) > 1:
+            self.error(motion, "motion: a wall that turns has no other motion", "rotation: {about: [1, 0.5], speed: 90}")
+        solid.rotation = read_rotation(self, node, basin)
+        if solid.rotation is not None:
+            check_swept(self, node, solid.rotation, solid.shape, basin)
+
+    def _formula(self, node: Node, key: str = "motion") -> str | None:
         """Of TIME. Functions are those of *DEFINE_CURVE_FUNCTION, which the program knows; names are checked here."""
         example = "0.05 * sin(2 * PI * TIME / 1.2), or {file: motion.csv}"
         if node.tag == OF_PYTHON:
-            self.error(node, f"motion: expected a formula of TIME, got {node.value}", example)
+            self.error(node, f"{key}: expected a formula of TIME, got {node.value}", example)
             return None
         try:
             made = substitute(node.value, self.variables)
@@ -220,9 +241,9 @@ class BasinReader(ShapeReader):
             return None
         odd = [name for name in _NAMES.findall(made) if name.upper() not in ("TIME", "PI")]
         if odd:
-            self.error(node, f"motion: unknown name '{odd[0]}' in the formula '{made}'", f"names are TIME and PI, and of parameters ${{name}}: {example}")
+            self.error(node, f"{key}: unknown name '{odd[0]}' in the formula '{made}'", f"names are TIME and PI, and of parameters ${{name}}: {example}")
         elif made.count("(") != made.count(")"):
-            self.error(node, f"motion: as many '(' as ')' are needed in the formula '{made}'")
+            self.error(node, f"{key}: as many '(' as ')' are needed in the formula '{made}'")
         else:
             return made
         return None
@@ -254,6 +275,7 @@ class BasinReader(ShapeReader):
                 if key == "walls":
                     before = len(self.pistons)
                     solid.motion = self.read_motion(entry, basin)
+                    self._rotation(entry, solid, basin)
                     solid.piston = self.pistons[-1] if len(self.pistons) > before else None
                     for axis, series in solid.motion.items():
                         if basin.box and not isinstance(series, str):
@@ -273,7 +295,7 @@ class BasinReader(ShapeReader):
             if behind:
                 report = self.diagnostics.error if np.isfinite(inlet.length(basin.end)) else self.diagnostics.warning
                 report(inlet.where, f"an inlet inside of the water: {behind} particles are behind it, where those wait that enter",
-                       "an inlet is a jet into air; of a channel, a block of moving water outside of the box is the inflow")
+                       "an inlet is a jet into air; of a channel, side: left, depth: 0.3 lets water in through an end of it")
         for solid in basin.solids:
             if solid.piston is not None and basin.water.lattices:
                 check_piston(solid.piston, solid, basin.water.lattices, self.variables, self.diagnostics)
@@ -282,7 +304,8 @@ class BasinReader(ShapeReader):
         """Bodies of the plane touch no wall: one that sinks and has no joint would leave the box unseen."""
         basin.rigid_parts()  # numbers them
         held = basin.box is not None or any(not solid.free for solid in basin.solids)
-        falling = next((solid for solid in basin.solids if solid.free and not {"x", "y"} <= solid.hold
+        tied = {part for one in basin.structures for part, _ in one.carried}
+        falling = next((solid for solid in basin.solids if solid.free and solid.part not in tied and not {"x", "y"} <= solid.hold
                         and not {solid.shape.name, str(solid.part)} & joined), None)
         if basin.dim == 2 and held and falling is not None:
             self.diagnostics.warning(falling.where, f"'{falling.shape.name or 'a body'}' passes through walls and falls through the floor: bodies of the plane "
@@ -396,7 +419,7 @@ class BasinReader(ShapeReader):
         inside, beside = (0.25, 0.2) if basin.method == "ghosts" else (0.5, 0.5)  # along an axis, and across a wall
         dx = basin.spacing * (1 - 1e-6)
         out = [Near(one.shape, inside * dx) if one.closed or one.shape.ground else NearSurface(one.shape, beside * dx) for one in basin.solids]
-        out += [one.keeps_out(basin.dim, basin.spacing) for one in basin.structures]
+        out += [one.keeps_out(basin.dim, basin.spacing) for one in basin.structures if one.mesh.kind != BEAMS]
         for lattice in basin.water.lattices:
             lattice.without = out
 

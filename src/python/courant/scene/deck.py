@@ -6,10 +6,13 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..diagnostics import Diagnostics
+from .beams import element_cards
+from .joins import tie_cards
 from .model import LARGEST_ID, Fault, Lattice, Model, Part, Variables
 from .numbers import number_text, numbers, whole_numbers
 from .places import Axis, lattice_points, values_at
 
+_FIRST_TIE = 7001  # set and part of the first node that goes with an element
 _BLANK, _END = ord(" "), ord("\n")
 
 
@@ -22,6 +25,10 @@ class Placed:
     masses: list[tuple[int, float]] = field(default_factory=list)  # particles of each group, and their MASS field
     shells: np.ndarray = field(default_factory=lambda: np.zeros((0, 4), dtype=int))  # ids of their nodes, eight of solids
     first_shell: int = 1
+    same: dict[int, int] = field(default_factory=dict)  # ids of nodes that are those of other parts, by their number
+
+    def id_of(self, node: int) -> int:
+        return self.same.get(int(node), self.first + int(node))
 
     def size(self) -> int:
         return sum(len(group[0].values if group[0].codes is None else group[0].codes) for group in self.nodes)
@@ -124,6 +131,17 @@ class Placer:
             self.shell = part.first_id
 
 
+def _share(parts: list[Part], placed: list[Placed]) -> None:
+    """Nodes that are those of another part."""
+    by_part = dict(zip((part.id for part in parts), placed))
+    for part, one in zip(parts, placed):
+        one.same = {node: by_part[other].first + there for node, other, there in part.shared}
+    for part, one in zip(parts, placed):  # of a node that is that of a third part
+        for node, other, there in part.shared:
+            one.same[node] = by_part[other].id_of(there)
+            one.shells = np.where(one.shells == one.first + node, one.same[node], one.shells)
+
+
 def _lines(count: int, width: int) -> np.ndarray:
     lines = np.full((count, width + 1), _BLANK, dtype=np.uint8)
     lines[:, width] = _END
@@ -198,13 +216,13 @@ def _parts_text(parts: list[Part]) -> str:
 def _held_nodes(part: Part, placed: Placed) -> str:
     """Nodes that are held, or that go with a rigid part, and those with a history."""
     out = ""
-    if len(part.fixed) and part.fixed_to:
-        out += "*CONSTRAINED_EXTRA_NODES_NODE\n" + _heading(("pid", "nid"), 10) + "".join(f"{part.fixed_to:10}{placed.first + k:10}\n" for k in part.fixed)
-    elif len(part.fixed):
+    for to, nodes in part.carried:
+        out += "*CONSTRAINED_EXTRA_NODES_NODE\n" + _heading(("pid", "nid"), 10) + "".join(f"{to:10}{placed.id_of(k):10}\n" for k in nodes)
+    if len(part.fixed):
         out += "*BOUNDARY_SPC_NODE\n" + _heading(("nid", "cid", "dofx", "dofy", "dofz", "dofrx", "dofry", "dofrz"), 10)
-        out += "".join(f"{placed.first + k:10}         0" + 6 * "         1" + "\n" for k in part.fixed)
+        out += "".join(f"{placed.id_of(k):10}         0" + 6 * "         1" + "\n" for k in part.fixed)
     if len(part.tracked):
-        out += "*DATABASE_HISTORY_NODE\n" + "".join(f"{placed.first + k:10}\n" for k in part.tracked)
+        out += "*DATABASE_HISTORY_NODE\n" + "".join(f"{placed.id_of(k):10}\n" for k in part.tracked)
     return out
 
 
@@ -235,13 +253,14 @@ def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bo
     before = diagnostics.errors
     placer = Placer(model.variables, diagnostics)
     placed = [placer.place(part) for part in model.parts]
+    _share(model.parts, placed)
     if diagnostics.errors > before:
         return []
     by = f"courant.Scene in {name}" if of_python else f"`courant generate {name}`"
     head = f"$ Written by {by}: change the scene, not this file.\n$ Parameters:\n"
     head += "".join(f"$   {parameter} = {number_text(value)}\n" for parameter, value in model.parameters) + "$ Parts:\n"
     for part, one in zip(model.parts, placed):
-        holds = f"{one.particles()} particles" if one.particles() else f"{len(one.shells)} {'solids' if part.solids else 'shells'}"
+        holds = f"{one.particles()} particles" if one.particles() else f"{len(one.shells)} {'solids' if part.solids else 'beams' if one.shells.shape[1] == 2 else 'shells'}"
         head += f"$   {part.id} {part.title}: {holds}\n"
     head += f"*KEYWORD\n*TITLE\n{model.title}\n"
     head += "".join(block if not block or block.endswith("\n") else block + "\n" for block in model.keywords)
@@ -265,7 +284,13 @@ def deck_pieces(model: Model, name: str, diagnostics: Diagnostics, of_python: bo
         if meshed:
             out.append(f"*ELEMENT_{kind}\n$#   eid     pid{''.join(f'n{k}'.rjust(8) for k in range(1, corners + 1))}\n".encode())
         out += [_shell_lines(one.first_shell, part.id, one.shells) for part, one in meshed]
+    for part, one in zip(model.parts, placed):
+        if len(one.shells) and one.shells.shape[1] == 2:
+            out.append(element_cards(one.first_shell, part.id, one.shells, part.upwards).encode())
     out += [_held_nodes(part, one).encode() for part, one in zip(model.parts, placed)]
+    by_part = dict(zip((part.id for part in model.parts), placed))
+    ties = [(one.id_of(tie.node), [by_part[tie.part].id_of(k) for k in tie.others]) for part, one in zip(model.parts, placed) for tie in part.ties]
+    out.append(tie_cards(_FIRST_TIE, ties).encode())
     try:
         for part, one in zip(model.parts, placed):
             _initial_state(part, one, model.variables, out)

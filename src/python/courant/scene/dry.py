@@ -10,6 +10,7 @@ import numpy as np
 
 from ..diagnostics import Diagnostics
 from ..yaml_map import Node, is_list, is_map
+from .beams import read_lines
 from .basin import FIXED, GRAVITY, Basin
 from .explain import explain_output, explain_solids
 from .joints import joined_names, joined_pairs
@@ -44,7 +45,7 @@ $#  endtim    endcyc     dtmin    endeng    endmas     nosol
 ${end:10}         0         0         0     1.0e8         0
 *CONTROL_TIMESTEP
 $#  dtinit    tssfac
-         0       0.9
+         0${tssfac:10}
 """ + REQUESTS
 
 _PLANE = """\
@@ -73,7 +74,12 @@ class Dry(Basin):
 
     def variables(self) -> dict[str, float]:
         return {"end": self.end, "dim": float(self.dim), "rho0": self.density, "young": self.young, "output": self.output, "g": self.gravity,
-                "touch": _THICKNESS * self.spacing}
+                "touch": _THICKNESS * self.spacing, "tssfac": self.step}
+
+    @property
+    def step(self) -> float:
+        """Of the longest stable one: cables that become slack and taut again gain energy in steps near that [-]."""
+        return 0.5 if any(one.section is not None and one.section.is_cable for one in self.structures) else 0.9
 
     @property
     def foreign_units(self) -> str:
@@ -141,6 +147,9 @@ def _entries(reader: SceneReader, root: Node) -> Iterator[tuple[str, Shape]]:
         for key in ("structures", "bodies", "walls"):
             node = reader.get(root, key)
             for entry in node.value if node is not None and is_list(node) else ():
+                if is_map(entry) and (lines := reader.get(entry, "beam")) is not None:
+                    yield from ((key, shape) for shape in _beams(reader, lines))
+                    continue
                 kind = next((one for one in KINDS if is_map(entry) and reader.get(entry, one) is not None), "")
                 try:
                     shape = reader._made(entry, kind, math.inf) if kind else None
@@ -150,6 +159,16 @@ def _entries(reader: SceneReader, root: Node) -> Iterator[tuple[str, Shape]]:
                     continue
     finally:
         reader.diagnostics = kept
+
+
+def _beams(reader: SceneReader, entry: Node) -> Iterator[Shape]:
+    """Lines of an entry `beam`, as shapes of their dimensions."""
+    point: Node | None = entry
+    while point is not None and is_list(point) and point.value and is_list(point.value[0]):
+        point = point.value[0]
+    dim = len(point.value) if point is not None and is_list(point) else 0
+    for line in (read_lines(reader, entry, dim) or []) if dim in (2, 3) else []:
+        yield Shape(line, np.zeros((0, dim), dtype=int), dim)
 
 
 def _take_measure(reader: SceneReader, root: Node, basin: Dry) -> None:
@@ -175,8 +194,10 @@ def _check(reader: SceneReader, root: Node, basin: Dry) -> None:
     if basin.box and (len(basin.open) == len(basin.sides) or any(not basin.box[1][k] > basin.box[0][k] for k in range(basin.dim))):
         reader.error(reader.get(root, "box") or root, "box: it has no walls", "'high' is above 'low' along each axis, and one side is closed")
     titles = basin.rigid_parts()
-    loose = [one.where for one in basin.solids if one.free and not {titles[one.part], str(one.part)} & joined and not {"x", "y"} <= one.hold]
-    loose += [one.where for one in basin.structures if not len(one.fixed)]
+    tied = {part for one in basin.structures for part, _ in one.carried}
+    loose = [one.where for one in basin.solids
+             if one.free and one.part not in tied and not {titles[one.part], str(one.part)} & joined and not {"x", "y"} <= one.hold]
+    loose += [one.where for one in basin.structures if not len(one.bound)]
     if basin.dim == 2 and loose and len(titles) + len(basin.structures) > 1:
         reader.diagnostics.error(loose[0], "parts of the plane do not touch each other, and this one is neither fixed nor in a joint",
                                  "give points of three components: in space all parts touch")
@@ -273,7 +294,8 @@ def _explain(basin: Dry, model: Model) -> None:
         "a tenth of the smallest part that moves, at least a two-hundredth of the largest part; round shapes, faces of rigid parts (four spacings) and meshes "
         "without a 'size' follow it", "*NODE")
     add(f"gravity {number_text(basin.gravity)}", "its default, or given", f"*LOAD_BODY_{'XYZ'[basin.dim - 1]}" if basin.gravity > 0 else "none")
-    add("steps of 0.9 of the longest stable ones", "usual for parts that deform; contacts shorten steps where they need it", "*CONTROL_TIMESTEP TSSFAC")
+    add(f"steps of {basin.step:g} of the longest stable ones", "usual for parts that deform; contacts shorten steps where they need it"
+        if basin.step == 0.9 else "cables that become slack and taut again gain energy in longer ones", "*CONTROL_TIMESTEP TSSFAC")
     add("no damping", "free vibration goes on", "none")
     if basin.rigid_parts():
         add(f"rigid parts touch with Young's modulus {basin.young:.4g}", "that of steel, in units that follow from gravity and the heaviest part; it "
@@ -284,7 +306,7 @@ def _explain(basin: Dry, model: Model) -> None:
             "a spacing in front, shells that deform at half their thickness", "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE" + (", _SINGLE_SURFACE" if basin.structures else ""))
     else:
         add("parts do not touch", "the program knows no contact of elements in the plane", "none")
-    for one in sorted(basin.structures, key=lambda one: one.mesh.side / one.material.sound_speed)[:1]:
-        add(f"'{one.title}' sets the step: about {0.9 * one.mesh.side / one.material.sound_speed:.2g}", "sound crosses its shortest element in that time",
+    for one in sorted(basin.structures, key=lambda one: one.mesh.side / one.sound_speed)[:1]:
+        add(f"'{one.title}' sets the step: about {basin.step * one.mesh.side / one.sound_speed:.2g}", "sound crosses its shortest element in that time",
             "*CONTROL_TIMESTEP; a larger 'size' makes longer steps")
     explain_output(basin, model)

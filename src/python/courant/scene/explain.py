@@ -66,6 +66,8 @@ def explain_solids(basin: Basin, model: Model) -> None:
         elif solid.piston is not None and solid.piston.own_card:
             add(f"'{solid.shape.name}' is a {solid.piston.maker} that makes waves" + (" and absorbs those that come back" if solid.piston.absorb else ""), "given",
                 f"*COURANT_WAVE_MAKER {solid.part}")
+        elif solid.rotation is not None:
+            add(f"'{solid.shape.name}' {solid.rotation.text()}", "given", f"*BOUNDARY_PRESCRIBED_MOTION_RIGID {solid.part}")
         elif solid.motion:
             add(f"'{solid.shape.name}' moves along {' and '.join(solid.motion)}", "given", f"*BOUNDARY_PRESCRIBED_MOTION_RIGID {solid.part}")
         else:

@@ -11,6 +11,7 @@ from ..key_tables import keys as keys_of_map
 from ..words import did_you_mean, shortest
 from ..yaml_map import Node, is_list, is_scalar
 from .part_names import described, named_part
+from .solids import part_set
 
 if TYPE_CHECKING:
     from .model import Model
@@ -21,6 +22,7 @@ _KINDS = {"point": (1, 1), "level": (2, 2), "runup": (2, 2), "flux": (2, 3), "fo
 _KEYS = keys_of_map("a gauge", "point vector, level list, runup list, flux list, force any, name text!, interval number, with any, about any")
 _FOREIGN = re.compile(r"[^A-Za-z0-9_.-]", re.ASCII)  # characters that become _, as the program has it
 _LONGEST = 60  # name
+_FIRST_SET = 3000  # of the parts of a gauge
 
 
 def read_gauges(reader: SceneReader, root: Node, model: Model) -> None:
@@ -57,7 +59,7 @@ def _read_gauge(reader: SceneReader, root: Node, node: Node, number: int, usual:
     for key, only in (("with", "point"), ("about", "force")):
         if (entry := reader.get(node, key)) is not None and kind != only:
             reader.error(entry, f"'{key}' goes with '{only}'")
-    cards = _cards(reader, root, node, kind, model)
+    cards = _cards(reader, root, node, kind, number, model)
     if reader.diagnostics.errors == before:
         front, *more = cards
         model.keywords.append(f"*COURANT_GAUGE_{kind.upper()}_TITLE\n{name}\n{number},{shortest(interval)}{front}\n" + "".join(f"{one}\n" for one in more))
@@ -80,13 +82,20 @@ def _name(reader: SceneReader, node: Node, names: set[str]) -> str:
     return name
 
 
-def _cards(reader: SceneReader, root: Node, node: Node, kind: str, model: Model) -> list[str]:
+def _cards(reader: SceneReader, root: Node, node: Node, kind: str, number: int, model: Model) -> list[str]:
     """What follows the interval on the first card, and the cards behind it."""
     value = reader.get(node, kind)
     assert value is not None
     if kind == "force":
         about = reader.vector(node, "about")[0] if reader.get(node, "about") is not None else (0.0, 0.0, 0.0)
-        return [f",{_part(reader, root, value, model, kind)},3,{_numbers(about)}"]
+        if not is_list(value):
+            return [f",{_part(reader, root, value, model, kind)},3,{_numbers(about)}"]
+        parts = [_part(reader, root, one, model, kind) for one in value.value]
+        if not parts:
+            reader.error(value, "force: expected the number or the title of a part, or a list of them")
+            return []
+        model.keywords.append(part_set(_FIRST_SET + number, parts))
+        return [f",{_FIRST_SET + number},2,{_numbers(about)}"]
     if kind == "point":
         body = reader.get(node, "with")
         if reader.dim and is_list(value) and len(value.value) != reader.dim and 2 <= len(value.value) <= 3:
@@ -149,6 +158,8 @@ def _part(reader: SceneReader, root: Node, node: Node, model: Model, key: str) -
             return int(text)
         reader.error(node, f"{key}: the scene has no part '{text}'",
                      f"{did_you_mean(text, [part.title for part in model.parts])}its parts: {', '.join(f'{part.title} ({part.id})' for part in model.parts)}")
+    elif found.plates and found.plates[0].shells().shape[1] == 2:
+        reader.error(node, f"{key}: part '{text}' has beams alone, which water flows through", "name a wall, a body or a structure with faces")
     elif not (found.plates or found.solids):
         reader.error(node, f"{key}: part '{text}' has particles alone", "name a wall or a body: a part with faces")
     return number

@@ -27,6 +27,7 @@ class Cells:
     points: np.ndarray
     cells: list[Block]
     groups: dict[str, list[np.ndarray]] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
 
     def of(self, group: str) -> Cells:
         """The cells of a group alone; all where none is named. Raises ShapeFault."""
@@ -34,12 +35,52 @@ class Cells:
             return self
         if group not in self.groups:
             raise ShapeFault(f"group: the mesh has no group '{group}'", f"{did_you_mean(group, self.groups)}its groups: {', '.join(self.groups) or 'none'}")
-        return Cells(self.points, [Block(one.type, one.data[rows]) for one, rows in zip(self.cells, self.groups[group]) if len(rows)], self.groups)
+        kept = [k for k, rows in enumerate(self.groups[group]) if len(rows)]
+        blocks = [Block(self.cells[k].type, self.cells[k].data[self.groups[group][k]]) for k in kept]
+        return Cells(self.points, blocks, {group: [np.arange(len(one.data)) for one in blocks]}, self.notes)
 
     def nodes(self) -> dict[str, np.ndarray]:
         """Numbers of the nodes of each group."""
         return {name: np.unique(np.concatenate([np.zeros(0, dtype=int), *(block.data[some].ravel() for block, some in zip(self.cells, rows))]))
                 for name, rows in self.groups.items()}
+
+
+_WHOLE = {"line": 2, "triangle": 3, "quad": 4, "tetra": 4, "hexahedron": 8, "wedge": 6, "pyramid": 5}  # elements by their corners
+
+
+def tidied(mesh: Cells) -> Cells:
+    """With elements of first order, by their corners, and with polygons and quadrangles that are not convex as triangles. Raises ShapeFault."""
+    blocks, source, notes, higher = list[Block](), list[tuple[int, np.ndarray]](), list(mesh.notes), 0
+    for number, block in enumerate(mesh.cells):
+        kind, data = block.type.rstrip("0123456789"), block.data
+        if kind in _WHOLE and data.shape[1] > _WHOLE[kind]:
+            data, higher = data[:, : _WHOLE[kind]], higher + len(data)
+        if kind not in (*_WHOLE, "polygon", "vertex") and len(data):
+            notes.append(f"{len(data)} cells of type {block.type} left out")
+            continue
+        if kind not in ("quad", "polygon") or not len(data):
+            blocks.append(Block(kind, data))
+            source.append((number, np.arange(len(data))))
+            continue
+        faces = [list(dict.fromkeys(corners)) for corners in data.tolist()]  # a corner may be there twice
+        rows = [k for k, corners in enumerate(faces) if len(corners) > 2]
+        made, bad = triangulated(mesh.points, [faces[k] for k in rows])
+        if bad is not None:
+            at = ", ".join(f"{v:.4g}" for v in mesh.points[faces[rows[bad]]].mean(axis=0))
+            raise ShapeFault(f"the sides of a quadrangle or polygon cross each other, at ({at})", "repair the mesh in the program that made it")
+        split = len(np.unique(made["triangle"][1])) if kind == "quad" else 0
+        if len(rows) < len(faces):
+            notes.append(f"{len(faces) - len(rows)} faces with less than three corners left out")
+        if split:
+            notes.append(f"{split} quadrangles that are not convex, or have a corner twice, taken as triangles")
+        for name, (corners, owner) in made.items():
+            if len(corners):
+                blocks.append(Block(name, corners))
+                source.append((number, np.array(rows)[owner]))
+    if higher:
+        notes.append(f"{higher} elements of higher order taken by their corners, with straight sides")
+    groups = {name: [np.flatnonzero(np.isin(owner, rows[number])) for number, owner in source] for name, rows in mesh.groups.items()}
+    return Cells(mesh.points, blocks, groups, notes)
 
 
 def cells_of(mesh: Any) -> Cells:
@@ -53,6 +94,9 @@ def cells_of(mesh: Any) -> Cells:
         if name not in groups and np.shape(value) == (2,) and len(tags):  # number and dimension
             groups[name] = [np.flatnonzero(np.asarray(tag) == value[0]) if _dimension(block.type) == value[1] else np.zeros(0, dtype=int)
                             for block, tag in zip(blocks, tags)]
+    named = {int(value[0]) for value in (getattr(mesh, "field_data", None) or {}).values() if np.shape(value) == (2,)}
+    for number in sorted({int(k) for tag in tags for k in np.unique(tag)} - named - {0}):  # groups without a name
+        groups.setdefault(str(number), [np.flatnonzero(np.asarray(tag) == number) for tag in tags])
     return Cells(points, blocks, groups)
 
 

@@ -28,6 +28,11 @@ class Material:
         """Of pressure waves [L/T]."""
         return math.sqrt(self.young * (1 - self.poisson) / (self.density * (1 + self.poisson) * (1 - 2 * self.poisson)))
 
+    @property
+    def bar_speed(self) -> float:
+        """Of waves along a bar [L/T]."""
+        return math.sqrt(self.young / self.density)
+
 
 # SI units; usual values for engineering, e.g. Ashby, Materials Selection in Mechanical Design, 4th edition, appendix A
 NAMED = {

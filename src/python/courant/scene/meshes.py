@@ -1,4 +1,4 @@
-"""Meshes of deformable parts: boxes, cylinders, spheres, tubes, plates and lines made here, and those of files by meshio."""
+"""Meshes of deformable parts: boxes, cylinders, spheres, tubes, plates and lines made here, and those of files and other libraries."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -8,7 +8,7 @@ import numpy as np
 from .groups import Cells
 from .shapes import Shape
 
-SOLIDS, SHELLS = "solids", "shells"
+SOLIDS, SHELLS, BEAMS = "solids", "shells", "beams"
 # corners of the sides of hexahedra, pyramids and wedges with repeated nodes, and of tetrahedra, seen from outside against the clock
 _SIDES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 _SIDES_OF_TETRA = ((0, 2, 1, 1), (0, 1, 3, 3), (1, 2, 3, 3), (2, 0, 3, 3))
@@ -16,7 +16,8 @@ _SIDES_OF_TETRA = ((0, 2, 1, 1), (0, 1, 3, 3), (1, 2, 3, 3), (2, 0, 3, 3))
 
 @dataclass
 class Mesh:
-    """`points` (n, 3) [L]; `cells`: numbers of the nodes of each element, (m, 8) of solids and (m, 4) of shells, with repeated nodes of others."""
+    """`points` (n, 3) [L]; `cells`: numbers of the nodes of each element, (m, 8) of solids, (m, 4) of shells and (m, 2) of beams, with
+    repeated nodes of others."""
 
     points: np.ndarray
     cells: np.ndarray
@@ -27,7 +28,7 @@ class Mesh:
 
     @property
     def kind(self) -> str:
-        return SOLIDS if self.cells.shape[1] == 8 else SHELLS
+        return {8: SOLIDS, 4: SHELLS, 2: BEAMS}[self.cells.shape[1]]
 
     def nodes(self) -> np.ndarray:
         return self.points
@@ -197,24 +198,37 @@ def line(points: np.ndarray, size: float) -> Mesh:
 # cells of meshio: which corners make a hexahedron or a quadrangle with repeated nodes
 _OF_MESHIO = {"hexahedron": (0, 1, 2, 3, 4, 5, 6, 7), "wedge": (0, 1, 4, 3, 2, 2, 5, 5), "pyramid": (0, 1, 2, 3, 4, 4, 4, 4), "tetra": (0, 1, 2, 3, 3, 3, 3, 3)}
 _FLAT = {"quad": (0, 1, 2, 3), "triangle": (0, 1, 2, 2)}
+_LINES = {"line": (0, 1)}
 
 
-def of_cells(whole: Cells, group: str = "") -> Mesh | None:
-    """The solids of a mesh or of one of its groups; where it has none its triangles and quadrangles. None where it has neither, or elements with nodes
-    on their sides. Raises ShapeFault."""
+def of_cells(whole: Cells, group: str = "", lines: bool = False) -> Mesh | None:
+    """The solids of a mesh or of one of its groups; where it has none its triangles and quadrangles; or its `lines` alone. None where it has none of them.
+    Raises ShapeFault."""
     mesh, groups = whole.of(group), whole.nodes()
-    for table, kinds in ((_OF_MESHIO, ("tetra", "hexahedron", "wedge", "pyramid")), (_FLAT, ("triangle", "quad"))):
-        if any(block.type.startswith(kinds) and block.type not in table for block in mesh.cells):
-            return None
+    for table in (_LINES,) if lines else (_OF_MESHIO, _FLAT):
         found = [block.data[:, table[block.type]] for block in mesh.cells if block.type in table]
         if found:
             used, numbers = np.unique(np.concatenate(found), return_inverse=True)
-            made = Mesh(mesh.points[used], numbers.reshape(-1, 8 if table is _OF_MESHIO else 4))
+            made = Mesh(mesh.points[used], numbers.reshape(-1, len(next(iter(table.values())))), notes=list(mesh.notes))
             made.groups = {name: np.flatnonzero(np.isin(used, nodes)) for name, nodes in groups.items()}
             if made.kind == SOLIDS:
                 _turn(made)
             return made
     return None
+
+
+def with_one_node_a_point(mesh: Mesh) -> Mesh:
+    """Shells of a surface, whose faces may each have vertices of their own; shells that vanish with them, or are there twice, go."""
+    tiny = 1e-6 * float(np.max(mesh.high - mesh.low))
+    _, first, number = np.unique(np.round((mesh.points - mesh.low) / tiny).astype(np.int64), axis=0, return_index=True, return_inverse=True)
+    cells = number.ravel()[mesh.cells]
+    kept = np.array([len(set(row)) > 2 for row in cells.tolist()], dtype=bool)
+    _, once = np.unique(np.sort(cells[kept], axis=1), axis=0, return_index=True)
+    rows = np.flatnonzero(kept)[np.sort(once)]
+    notes = [f"{len(mesh.points) - len(first)} duplicate vertices merged"] if len(first) < len(mesh.points) else []
+    notes += [f"{len(cells) - len(rows)} faces without area, or that are there twice, left out"] if len(rows) < len(cells) else []
+    groups = {name: np.unique(number.ravel()[nodes]) for name, nodes in mesh.groups.items()}
+    return Mesh(mesh.points[first], cells[rows], mesh.name, [*mesh.notes, *notes], mesh.name_of_kind, groups)
 
 
 def _turn(mesh: Mesh) -> None:

@@ -115,7 +115,10 @@ class Part:
     plates: list[Any] = field(default_factory=list)  # Plate, Shape, Mesh: nodes(), shells(), side
     solids: list[Any] = field(default_factory=list)  # Mesh, beside plates or alone
     fixed: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))  # nodes, from 0, that are held
-    fixed_to: int = 0  # rigid part with which they go; 0: held in space
+    carried: list[tuple[int, np.ndarray]] = field(default_factory=list)  # rigid parts, and the nodes that go with each
+    shared: list[tuple[int, int, int]] = field(default_factory=list)  # a node, and the part and node that it is
+    ties: list[Any] = field(default_factory=list)  # Tie: nodes that go with elements of other parts
+    upwards: np.ndarray | None = None  # directions of the height of beams (m, 3)
     tracked: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))  # nodes with a history
     inertia: tuple[float, np.ndarray, np.ndarray] | None = None  # of a rigid part: mass, centre, tensor about it, for *PART_INERTIA
     where: Location = field(default_factory=Location)

@@ -29,7 +29,7 @@ class Mark(yaml.Mark):
     """Where an argument of a scene that is made in Python was given: file and line of the call."""
 
     def __init__(self, file: str, line: int) -> None:
-        super().__init__(file, 0, line - 1, -1, None, None)
+        super().__init__(file, 0, line - 1, -1, None, None)  # type: ignore[arg-type]
         self.of_call = True
 
 

@@ -19,9 +19,10 @@ if TYPE_CHECKING:
     from .model import Model
     from .basin_reader import BasinReader
 
-_OF_INLET = keys_of_map("an inlet", "at vector!, direction vector!, width number, radius number, sides list, speed number, level number, head number, start number, end number")
+_OF_INLET = keys_of_map("an inlet", "at vector, direction vector, side text, depth number, width number, radius number, sides list, speed number, level number, head number, start number, end number")
 _OF_OUTLET = keys_of_map("an outlet", "side text!, level number")
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
+_OF_CHANNEL = "- {side: left, depth: 0.3, speed: 0.5}"
 _OUTLET = "- {side: right}, with level: 0.3 one that keeps a depth"
 _BOX_HEAD = "*DEFINE_BOX\n$#   boxid       xmn       xmx       ymn       ymx       zmn       zmx\n"
 _GAP = 2.5  # spacings
@@ -41,6 +42,7 @@ class Inlet:
     held: str = ""  # "level": the surface at the inlet is held; "head": the energy head
     start: float = 0.0
     end: float = 0.0  # 0: that of the run [T]
+    surface: float | None = None  # height of the surface of the water that enters under its own pressure; None: a jet [L]
     where: Location = field(default_factory=Location)
 
     def waits(self, x: np.ndarray, spacing: float, end: float) -> np.ndarray:
@@ -92,6 +94,14 @@ def _read_inlet(reader: BasinReader, node: Node, basin: Basin) -> None:
     shapes = ("width",) if basin.dim == 2 else ("radius", "sides")
     reader.check_keys(node, "an inlet", [key for key in _OF_INLET if key in shapes or key not in ("width", "radius", "sides")])
     before = reader.diagnostics.errors
+    if reader.get(node, "side") is not None or reader.get(node, "depth") is not None:
+        _read_channel(reader, node, basin)
+        return
+    for key in ("at", "direction"):
+        if reader.get(node, key) is None:
+            reader.error(node, f"an inlet: '{key}' is missing", f"{_INLET}; at the end of a channel {_OF_CHANNEL}")
+    if reader.diagnostics.errors > before:
+        return
     vectors = [reader.vector(node, key) for key in ("at", "direction")]
     if any(dim and dim != basin.dim for _, dim in vectors):
         reader.error(node, f"an inlet: at and direction have {basin.dim} components, as the scene", _INLET)
@@ -112,15 +122,59 @@ def _read_inlet(reader: BasinReader, node: Node, basin: Basin) -> None:
     held = flows[0] if flows[0] != "speed" else ""
     if held:
         _check_held(reader, node, held, given[0], value, size[-1] * (2 if len(size) == 1 else 1), direction[basin.dim - 1] / (length or 1))
+    start, end = _times(reader, node)
+    if reader.diagnostics.errors == before:
+        speed, level = (0.0, value) if held else (value, 0.0)
+        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, level, held, start, end, where=reader.at(node)))
+        if len(basin.inlets) > 1 and any(inlet.held for inlet in basin.inlets):
+            reader.error(node, "an inlet beside another one that holds a level: one of them in a scene", "leave one of the two out")
+
+
+def _read_channel(reader: BasinReader, node: Node, basin: Basin) -> None:
+    """The inflow of a channel: water of a depth through an open side of the box."""
+    before = reader.diagnostics.errors
+    for key in ("at", "direction", "width", "radius", "sides"):
+        if (entry := reader.get(node, key)) is not None:
+            reader.error(entry, f"'{key}' does not go with 'side' and 'depth', which give it", _OF_CHANNEL)
+    entry = reader.get(node, "side")
+    ends = {"left": (0, 0), "right": (0, 1)} | ({"front": (1, 0), "back": (1, 1)} if basin.dim == 3 else {})
+    side = reader.text(entry) if entry is not None else ""
+    if side not in ends:
+        reader.error(entry or node, f"side: water enters through {', '.join(ends)}, got '{side}'" if side else "'side' is missing: 'depth' goes with it", _OF_CHANNEL)
+    elif basin.box is None:
+        reader.error(node, "an inlet on a side of the box, and the scene has no box", "box: {low: [0, 0], high: [4, 1], open: [top, left]}")
+    elif side not in basin.open:
+        reader.error(node, f"an inlet on the side '{side}', which has a wall", f"open: [{', '.join(sorted(basin.open | {side}))}] of the box")
+    if reader.get(node, "depth") is None:
+        reader.error(node, "'depth' is missing: of the water that enters through the side", _OF_CHANNEL)
+    depth = reader.length(node, "depth") if reader.get(node, "depth") is not None else 0.0
+    if reader.get(node, "speed") is None:
+        reader.error(node, "'speed' is missing: of the water that enters through the side", _OF_CHANNEL)
+        return
+    speed, formula = _flow(reader, node, "speed")
+    start, end = _times(reader, node)
+    if not basin.gravity > 0:
+        reader.error(node, "an inlet with a depth, and there is no gravity", "at, direction and width give a jet")
+    if reader.diagnostics.errors > before or basin.box is None:
+        return
+    low, high, up = np.array(basin.box[0], float), np.array(basin.box[1], float), basin.dim - 1
+    axis, which = ends[side]
+    at, direction = (low + high) / 2, np.zeros(3)
+    at[axis], direction[axis] = (low, high)[which][axis], 1.0 if which == 0 else -1.0
+    at[up] = low[up] + depth / 2
+    size = (depth / 2,) if basin.dim == 2 else (float((high - low)[1 - axis]), depth)
+    if basin.dim == 2:
+        at[2] = 0.0
+    basin.inlets.append(Inlet(at, direction, size, speed, formula, start=start, end=end, surface=float(low[up] + depth), where=reader.at(node)))
+
+
+def _times(reader: BasinReader, node: Node) -> tuple[float, float]:
+    """The times between which water enters."""
     start = reader.number(reader.get(node, "start"), "start") or 0.0 if reader.get(node, "start") is not None else 0.0  # type: ignore[arg-type]
     end = reader.length(node, "end", "time") if reader.get(node, "end") is not None else 0.0
     if start < 0 or (end and end <= start):
         reader.error(node, "an inlet: 'start' is a time >= 0, 'end' one behind it")
-    if reader.diagnostics.errors == before:
-        speed, level = (0.0, value) if held else (value, 0.0)
-        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, level, held, start, end, reader.at(node)))
-        if len(basin.inlets) > 1 and any(inlet.held for inlet in basin.inlets):
-            reader.error(node, "an inlet beside another one that holds a level: one of them in a scene", "leave one of the two out")
+    return start, end
 
 
 def _check_held(reader: BasinReader, node: Node, key: str, shape: str, level: float, height: float, slope: float) -> None:
@@ -134,7 +188,11 @@ def _check_held(reader: BasinReader, node: Node, key: str, shape: str, level: fl
 
 
 def check_inlets(reader: BasinReader, basin: Basin) -> None:
-    """Refuses inlets too near in front of a mirror: the water would be held by its own image."""
+    """Refuses inlets too near in front of a mirror: the water would be held by its own image; and jets beside inflows of channels."""
+    levels = {inlet.surface for inlet in basin.inlets}
+    if len(levels) > 1:
+        reader.diagnostics.error(basin.inlets[-1].where, "inlets of a scene are all jets, or all have one level of the water",
+                                 f"levels: {', '.join('a jet' if one is None else f'{one:g}' for one in sorted(levels, key=str))}")
     for inlet in basin.inlets if basin.mirrors and basin.box else ():
         for k in range(basin.dim):
             end = 0 if inlet.direction[k] > 0 else 1
@@ -205,7 +263,12 @@ def add_openings(basin: Basin, model: Model) -> None:
             model.choices.append((f"water enters at ({at}), {inlet.held} {how} above the lower edge", "the discharge follows from the flow inside, up to critical flow",
                                   card + ", *COURANT_INFLOW SURF 3"))
         else:
-            model.choices.append((f"water enters at ({at}), speed {how}", "given", card))
+            model.choices.append((f"water enters at ({at}), speed {how}", "given" if inlet.surface is None else
+                                  f"given; under the pressure below its surface at {inlet.surface:g}, so that it joins the water of a channel",
+                                  card + ("" if inlet.surface is None else ", *COURANT_INFLOW")))
+    if basin.inlets and (surface := basin.inlets[0].surface) is not None:
+        point = [0.0, surface, 0.0] if basin.dim == 2 else [0.0, 0.0, surface]
+        model.keywords.append("*COURANT_INFLOW\n$#     pid      surf        xs        ys        zs\n" + _row(1, 2, *point))
     if basin.outlets:
         model.keywords.append(_outlet_cards(basin))
         for outlet in basin.outlets:

@@ -22,7 +22,8 @@ def triangulated(points: np.ndarray, polygons: list[list[int]]) -> tuple[dict[st
         fan &= ~quad
         parts += [(corners[fan][:, [0, k, k + 1]], owner[fan]) for k in range(1, n - 1)]
         for k in np.flatnonzero(~fan & ~quad):
-            ears = _ears(_in_its_plane(x[k]))
+            has_area = np.linalg.norm(_normal(x[k : k + 1])) > _TINY * float(np.ptp(x[k], axis=0).max()) ** 2
+            ears = _ears(_in_its_plane(x[k])) if has_area else None  # both halves of a bow tie are as large
             crossed += [] if ears is not None else [int(owner[k])]
             parts += [] if ears is None else [(corners[k][ears], np.full(len(ears), owner[k]))]
     made = {}
@@ -44,8 +45,10 @@ def _is_fan(x: np.ndarray) -> np.ndarray:
     for their number over a point is its winding number. Also where there is no area to cover."""
     normal, size = _normal(x), np.ptp(x, axis=1).max(axis=1)
     whole = np.einsum("mi,mi->m", normal, normal)
-    of_triangles = np.einsum("mki,mi->mk", np.cross(x[:, 1:-1] - x[:, :1], x[:, 2:] - x[:, :1]), normal)
-    return np.asarray((of_triangles > _TINY * whole[:, None]).all(axis=1) | (np.sqrt(whole) <= _TINY * size**2) | (x.shape[1] == 3))
+    triangles = np.cross(x[:, 1:-1] - x[:, :1], x[:, 2:] - x[:, :1])
+    of_triangles = np.einsum("mki,mi->mk", triangles, normal)
+    flat = np.linalg.norm(triangles, axis=2).max(axis=1) <= _TINY * size**2
+    return np.asarray((of_triangles > _TINY * whole[:, None]).all(axis=1) | flat | (x.shape[1] == 3))
 
 
 def _in_its_plane(x: np.ndarray) -> np.ndarray:

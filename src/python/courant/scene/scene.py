@@ -18,16 +18,19 @@ from typing import Any, Union
 import numpy as np
 import yaml
 
-from ..diagnostics import CourantError, Diagnostics
+from ..diagnostics import CourantError, Diagnostics, Location
 from ..files import OutputError, write_file
 from ..words import shortest
 from ..yaml_map import Node, is_list, is_map
 from .command import write_deck
 from .explain import explained
+from .groups import tidied
+from .mesh_files import cells_of_gmsh
 from .model import Model
 from .node_reader import Mark
 from .reader import SceneReader
 from .shape_reader import DataNode
+from .shapes import ShapeFault
 from .surfaces import polygon_of
 
 Number = Union[float, str]  # also an expression of the scene's parameters: "height / n"
@@ -93,13 +96,13 @@ class Scene:
         water = {"spacing": spacing, "density": density, "sound_speed": sound_speed, "viscosity": viscosity, "tension": tension, "velocity": velocity,
                  "pressure": pressure}
         self._root = _node({}, mark)
-        self._root.flow_style = False
+        self._root.flow_style = False  # type: ignore[attr-defined]
         for key, value in {"title": title, "parameters": parameters, "end": end, "output": output, "gravity": gravity, "friction": friction,
                            "wall_method": wall_method}.items():
             if value is not None:
                 self._set(self._root, key, value, mark)
         self._set(self._root, "water", {key: value for key, value in water.items() if value is not None}, mark)
-        self._get("water").flow_style = False
+        self._get("water").flow_style = False  # type: ignore[attr-defined]
 
     @classmethod
     def from_yaml(cls, file: str | PathLike[str], **parameters: Number) -> Scene:
@@ -117,9 +120,13 @@ class Scene:
         scene._overrides = _texts(parameters)
         diagnostics = Diagnostics()
         try:
-            scene._root = SceneReader(scene._path, {}, diagnostics).load(scene._path)
+            root = SceneReader(scene._path, {}, diagnostics).load(scene._path)
+            if root is not None:
+                scene._root = root
         except OSError:
             diagnostics.error(scene._path, "the scene cannot be read", "check the name and the permissions")
+        if diagnostics.ok and root is None:
+            diagnostics.error(scene._path, "the scene is empty", "start with 'title: ...'")
         cls._raise(diagnostics)
         return scene
 
@@ -162,7 +169,7 @@ class Scene:
         trimesh, (points, triangles), or one of `box={"low", "high"}`, `cylinder={"base", "top", "radius"}`, `sphere={"centre", "radius"}`,
         `circle`, `line=[[x, y], ...]`, `plate={"origin", "edge1", "edge2"}`. `scale`, `turn` (degrees) and `move` bring it to its position, `close` fills
         holes, `open` takes a surface with holes as thin, `ground` makes all below it solid, `group` takes one group of a mesh, `motion` as of `box`
-        drives it."""
+        drives it, and `motion={"rotation": {"about", "axis", "speed", "angle" or "rpm", "ramp"}}` turns it."""
         self._append(("walls",), self._shape(shape, keys), _caller())
         return self
 
@@ -175,7 +182,8 @@ class Scene:
     def structure(self, shape: Any = None, **keys: Any) -> Scene:
         """A part that deforms: solids of `box={"low", "high"}`, `cylinder={"base", "top", "radius"}`, `sphere={"centre", "radius"}`, or of a file or mesh of
         meshio (Gmsh, VTK, Abaqus and others); shells with a `thickness` [L] of `plate={"origin", "edge1", "edge2"}`, in the plane `line=[[x, y], ...]`, of a
-        cylinder as a tube, or of a mesh of triangles and quadrangles. `material`: a name, such as "steel", or {"density", "young", "poisson", "yield",
+        cylinder as a tube, or of a mesh of triangles and quadrangles; beams with a `section={"rod": d}`, {"tube": [d, t]}, {"rectangle": [w, h]} or
+        {"cable": d} [L] of `beam=[point, point, ...]`, a list of such lines, or lines of a mesh. `join={"end": title}`: nodes that go with other parts. `material`: a name, such as "steel", or {"density", "young", "poisson", "yield",
         "tangent"} [M/L3, M/LT2]; `size` of its elements [L]; `fix`: nodes that are held, by a side ("bottom"), a group of the mesh or a condition ("y < 0.01"), or that
         go with the wall or body `to`; `group` takes one group of a mesh alone; `track=[point, ...]`: nodes whose motion is written; `velocity` [L/T], `scale`, `turn`, `move`, `title`."""
         self._append(("structures",), self._shape(shape, keys), _caller())
@@ -190,14 +198,16 @@ class Scene:
         self._append(("joints",), {"kind": kind, "between": list(between), "at": at, **{key: value for key, value in given.items() if value is not None}}, _caller())
         return self
 
-    def inlet(self, at: Point, direction: Point, *, speed: Number | None = None, level: Number | None = None, head: Number | None = None,
-              width: Number | None = None, radius: Number | None = None, sides: Sequence[Number] | None = None,
-              start: Number | None = None, end: Number | None = None) -> Scene:
-        """Water that enters around the point `at` along `direction`, with a `speed` [L/T], a number or a formula of TIME, or with the discharge that keeps a
-        `level` of the surface or an energy `head` above the lower edge of the inlet [L], which begins on the bed: in the plane through a `width`, in space
-        through a circle of a `radius` or a rectangle of two `sides`, the second the more upright one [L]; from `start` to `end` [T]."""
-        given = {"speed": speed, "level": level, "head": head, "width": width, "radius": radius, "sides": sides, "start": start, "end": end}
-        self._append(("inlets",), {"at": at, "direction": direction, **{key: value for key, value in given.items() if value is not None}}, _caller())
+    def inlet(self, at: Point | None = None, direction: Point | None = None, *, speed: Number | None = None, level: Number | None = None,
+              head: Number | None = None, width: Number | None = None, radius: Number | None = None, sides: Sequence[Number] | None = None,
+              start: Number | None = None, end: Number | None = None, side: str | None = None, depth: Number | None = None) -> Scene:
+        """With `side` and `depth` [L] the inflow of a channel through an open side of the box, which joins the water there. Otherwise water that enters around the
+        point `at` along `direction`: in the plane through a `width`, in space through a circle of a `radius` or a rectangle of two `sides`, the second the more upright
+        one [L]; from `start` to `end` [T]. With a `speed` [L/T], a number or a formula of TIME, it is a jet; with a `level` of the surface or an energy `head` above the
+        lower edge of the inlet [L], which begins on the bed, the discharge follows from the flow inside."""
+        given = {"at": at, "direction": direction, "side": side, "depth": depth, "speed": speed, "level": level, "head": head, "width": width, "radius": radius, "sides": sides,
+                 "start": start, "end": end}
+        self._append(("inlets",), {key: value for key, value in given.items() if value is not None}, _caller())
         return self
 
     def outlet(self, side: str, level: Number | None = None) -> Scene:
@@ -206,11 +216,11 @@ class Scene:
         return self
 
     def gauge(self, name: str, *, point: Point | None = None, level: Sequence[Point] | None = None, runup: Sequence[Point] | None = None,
-              flux: Sequence[Point] | None = None, force: int | str | None = None, interval: Number | None = None, body: int | str | None = None,
+              flux: Sequence[Point] | None = None, force: int | str | Sequence[int | str] | None = None, interval: Number | None = None, body: int | str | None = None,
               about: Point | None = None) -> Scene:
         """Measures, under a name, one of: pressure, velocity and density at a `point` (which moves with a `body`); the `level` of the surface, or the
         `runup` of the water, on a line of two points; the `flux` through two points in the plane, three corners in space; the `force` on a part, and its
-        moment `about` a point. `body` and `force`: number or title of a part. `interval` [T]: a tenth of that of states, if not given. Other characters of
+        moment `about` a point. `body` and `force`: number or title of a part, of `force` also a list. `interval` [T]: a tenth of that of states, if not given. Other characters of
         the name than letters, digits, -, _ and . become _."""
         given = {"point": point, "level": level, "runup": runup, "flux": flux, "force": force, "interval": interval, "with": body, "about": about}
         self._append(("gauges",), {"name": name, **{key: value for key, value in given.items() if value is not None}}, _caller())
@@ -339,7 +349,7 @@ class Scene:
     def _shape(shape: Any, keys: dict[str, Any]) -> dict[str, Any]:
         if shape is None:
             return keys
-        return {"file" if isinstance(shape, (str, PathLike)) else "mesh": shape if isinstance(shape, (str, PathLike)) else _Held(shape), **keys}
+        return {"file" if isinstance(shape, (str, PathLike)) else "mesh": shape if isinstance(shape, (str, PathLike)) else _Held(_of_gmsh(shape)), **keys}
 
     @staticmethod
     def _set(node: Node, key: str, value: Any, mark: Mark) -> None:
@@ -370,6 +380,19 @@ class Scene:
         known.value.append(entry)
 
 
+def _of_gmsh(thing: Any) -> Any:
+    """Of the model of Gmsh its present mesh, which the script may change later; anything else as it is. Raises CourantError."""
+    if not (hasattr(thing, "getPhysicalGroups") and hasattr(thing, "mesh")):
+        return thing
+    try:
+        return tidied(cells_of_gmsh(thing))
+    except Exception as fault:  # gmsh raises plain ones
+        diagnostics = Diagnostics()
+        message = fault.message if isinstance(fault, ShapeFault) else str(fault)
+        diagnostics.error(Location(_caller().name, _caller().line + 1), f"the model of Gmsh cannot be read: {message}", "gmsh.initialize() and gmsh.model.mesh.generate() come before")
+        raise CourantError(diagnostics) from None
+
+
 class _Held:
     """A mesh, which is not to be taken for numbers of YAML."""
 
@@ -380,7 +403,7 @@ class _Held:
 def _with_lines(node: Node) -> Node:
     """The same description with polygons of points as closed lines, which YAML has a form for."""
     if is_list(node):
-        return yaml.SequenceNode(node.tag, [_with_lines(one) for one in node.value], node.start_mark, node.end_mark, flow_style=node.flow_style)
+        return yaml.SequenceNode(node.tag, [_with_lines(one) for one in node.value], node.start_mark, node.end_mark, flow_style=node.flow_style)  # type: ignore[attr-defined]
     if not is_map(node):
         return node
     entries = []
@@ -391,7 +414,7 @@ def _with_lines(node: Node) -> Node:
         else:
             closed = xy if len(xy) < 3 or np.array_equal(xy[0], xy[-1]) else np.vstack([xy, xy[:1]])
             entries.append((_node("line", key.start_mark), _node(closed, value.start_mark)))
-    return yaml.MappingNode(node.tag, entries, node.start_mark, node.end_mark, flow_style=node.flow_style)
+    return yaml.MappingNode(node.tag, entries, node.start_mark, node.end_mark, flow_style=node.flow_style)  # type: ignore[attr-defined]
 
 
 def _all(node: Node) -> list[Node]:

@@ -10,6 +10,7 @@ import numpy as np
 from ..diagnostics import Location
 from .model import Part, Vector
 from .placeholders import substitute
+from .rotations import Rotation, is_oblique, local_axes, rotation_cards
 from .shapes import Shape
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ class Solid:
     shape: Shape
     closed: bool = True
     motion: dict[str, str | np.ndarray] = field(default_factory=dict)  # displacements by axis, formulas of TIME, or (n, 2) time and displacement [L]
+    rotation: Rotation | None = None  # of a wall that turns
     free: bool = False  # moves by the forces on it
     density: float = 0.0  # of a free one [M/L3]
     velocity: Vector | None = None  # of a free one, at the start [L/T]
@@ -37,6 +39,11 @@ class Solid:
     part: int = 0
     piston: Piston | None = None  # that makes waves
     by_contact: bool = False  # it has too many faces to be a mirror
+
+    @property
+    def driven(self) -> bool:
+        """A wall whose motion is given."""
+        return bool(self.motion) or self.rotation is not None
 
     def mirrors(self, method: str) -> bool:
         """Whether it is a mirror: of mixed methods, what moves freely, as contact lets bodies sink too deep."""
@@ -50,7 +57,7 @@ ${mid:10}${ro:10}${young:10}       0.3
 $#     cmo      con1      con2
          1${con1:10}${con2:10}
 $#      a1        a2        a3        v1        v2        v3
-         0         0         0         0         0         0
+${a1:10}${a2:10}${a3:10}${v1:10}${v2:10}${v3:10}
 """
 
 _MOTION = """\
@@ -153,18 +160,21 @@ def number_parts(solids: list[Solid]) -> None:
 
 def part_of(solid: Solid) -> Part:
     """Fixed walls share material 2; what moves has one of its own, with the number of the part."""
-    moves = solid.free or bool(solid.motion)
+    moves = solid.free or solid.driven
     part = Part(id=solid.part, title=solid.shape.name[:70], section=2, material=solid.part if moves else 2, merge=True, plates=[solid.shape], where=solid.where)
     if solid.free:
         part.inertia, part.velocity = solid.shape.inertia(solid.density), solid.velocity
+    elif solid.rotation is not None:
+        part.inertia = solid.rotation.inertia(solid.shape, 1000.0)
     return part
 
 
-def material(basin: Basin, part: int, held: set[str], density: float = 0.0) -> str:
-    """Of what moves but in the directions that are held; `density`: 0 for walls, whose mass does not matter."""
+def material(basin: Basin, part: int, held: set[str], density: float = 0.0, axes: tuple[np.ndarray, np.ndarray] | None = None) -> str:
+    """Of what moves but in the directions that are held; `density`: 0 for walls, whose mass does not matter; `axes`: vectors of a system of its own."""
     variables = basin.variables() | {"mid": float(part), "ro": density or 7.85 * basin.density, "con1": float(_held(held & {"x", "y", "z"})),
                                      "con2": float(_held(one[1] for one in held if one[0] == "r"))}
-    return substitute(_RIGID, variables)
+    names = ("a1", "a2", "a3", "v1", "v2", "v3")
+    return substitute(_RIGID, variables | dict(zip(names, np.concatenate(axes).tolist() if axes is not None else [0.0] * 6)))
 
 
 def motion_cards(part: int, motion: dict[str, str | np.ndarray], first_curve: int) -> str:
@@ -222,6 +232,14 @@ def moving_cards(basin: Basin, walls: Part | None) -> tuple[list[str], bool]:
         out.append(material(basin, part, set(FREE) - set(motion)))
         out.append(motion_cards(part, motion, curve))
         curve += len(motion)
+    for solid in basin.solids:
+        if (rotation := solid.rotation) is None:
+            continue
+        oblique = is_oblique(rotation)
+        turns = FREE[3:] if oblique else ("r" + "xyz"[int(np.argmax(np.abs(rotation.axis)))],)
+        out.append(material(basin, solid.part, set(FREE) - set(turns), axes=local_axes(rotation) if oblique else None))
+        out.append(rotation_cards(solid.part, rotation, curve, _SERIES, _FORMULA))
+        curve += 1
     for solid in makers:
         piston = solid.piston
         assert piston is not None

@@ -94,7 +94,7 @@ def _sides(basin: Basin) -> list[Shape]:
 
 def stays_still(basin: Basin, keywords: list[str]) -> bool:
     """Whether nothing of the scene moves the water. Cards beside those of the scene may."""
-    driven = basin.box_motion or any(solid.free or solid.motion for solid in basin.solids)
+    driven = basin.box_motion or any(solid.free or solid.driven for solid in basin.solids)
     return not driven and basin.gravity > 0 and not basin.outlets and not any(_MAY_MOVE.search(text) for text in keywords)
 
 

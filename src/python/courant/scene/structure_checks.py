@@ -20,7 +20,7 @@ def check_structures(basin: Basin, diagnostics: Diagnostics) -> None:
     """Refuses nodes that begin in closed walls, bodies and other solids, but for those that are held, and parts that reach through walls of the box."""
     depth, dim = _DEPTH * basin.spacing, basin.dim
     solid = {id(one): one.outline(dim) for one in basin.structures if one.mesh.kind == SOLIDS}
-    free_of = [np.delete(one.mesh.points, one.fixed, axis=0) for one in basin.structures]
+    free_of = [np.delete(one.mesh.points, one.bound, axis=0) for one in basin.structures]
     for k, (one, free) in enumerate(zip(basin.structures, free_of)):
         _check_box(one, free, basin, depth, diagnostics)
         for rigid in basin.solids:

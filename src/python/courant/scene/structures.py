@@ -8,7 +8,9 @@ import numpy as np
 
 from ..diagnostics import Location
 from .materials import Material, material_cards, material_text
-from .meshes import SOLIDS, Mesh
+from .beams import Section, section_cards, upwards
+from .joins import Tie
+from .meshes import BEAMS, SOLIDS, Mesh
 from .model import Near, NearSurface, Part, Vector
 from .placeholders import substitute
 from .shapes import Shape, polyline
@@ -24,13 +26,17 @@ STRUCTURES, OTHERS = 6, 7  # sets of parts: all that deform, and all rigid ones 
 
 @dataclass
 class Structure:
-    """A part that deforms. `fixed`: numbers of the nodes that are held, or that go with the rigid part `to`; `tracked`: of those with a history."""
+    """A part that deforms. Numbers of its nodes: `fixed` are held, `carried` go with rigid parts, `shared` are those of another deformable part, `ties` go
+    with elements of others, `tracked` have a history."""
 
     mesh: Mesh
     material: Material
     thickness: float = 0.0  # of shells [L]
     fixed: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
-    to: int = 0  # part; 0: held in space
+    carried: list[tuple[int, np.ndarray]] = field(default_factory=list)
+    shared: list[tuple[int, int, int]] = field(default_factory=list)
+    ties: list[Tie] = field(default_factory=list)
+    section: Section | None = None  # of beams
     tracked: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=int))
     velocity: Vector | None = None  # at the start [L/T]
     where: Location = field(default_factory=Location)
@@ -39,6 +45,17 @@ class Structure:
     @property
     def title(self) -> str:
         return self.mesh.name
+
+    @property
+    def bound(self) -> np.ndarray:
+        """Numbers of all nodes that do not move by themselves."""
+        nodes = [self.fixed, *(some for _, some in self.carried), np.array([one for one, _, _ in self.shared] + [tie.node for tie in self.ties], dtype=int)]
+        return np.unique(np.concatenate(nodes).astype(int))
+
+    @property
+    def sound_speed(self) -> float:
+        """That limits the step [L/T]."""
+        return self.material.bar_speed if self.mesh.kind == BEAMS else self.material.sound_speed
 
     def keeps_out(self, dim: int, spacing: float) -> Near:
         """What has no water: the solid with half a spacing beside it, or the layer of a shell."""
@@ -144,6 +161,8 @@ def touch(kind: str, cid: int, title: str, surfa: int, surfb: int, *, sbst: floa
 
 def _section_cards(one: Structure) -> tuple[str, bool]:
     """The section, with hourglass control where it has one."""
+    if one.section is not None:
+        return section_cards(one.part, one.section, one.material), False
     tetra = one.mesh.kind == SOLIDS and bool((one.mesh.cells[:, 3] == one.mesh.cells[:, 4]).all())
     plastic = one.material.yield_stress > 0
     values = {"id": float(one.part), "t": one.thickness, "nip": 5.0 if plastic else 3.0, "qm": 1.0, "ihq": 6.0}
@@ -164,20 +183,23 @@ def add_structures(basin: Basin, model: Model, rigid: list[int]) -> None:
     text, variables = "", basin.variables() | {"spacing": basin.spacing}
     for one in basin.structures:
         section, controlled = _section_cards(one)
-        text += section + material_cards(one.part, one.material)
+        text += section + ("" if one.section is not None and one.section.is_cable else material_cards(one.part, one.material))
         part = Part(id=one.part, title=one.title[:70], section=one.part, material=one.part, hourglass=one.part if controlled else 0, velocity=one.velocity,
-                    where=one.where, fixed=one.fixed, fixed_to=one.to, tracked=one.tracked)
+                    where=one.where, fixed=one.fixed, carried=one.carried, shared=one.shared, ties=one.ties, tracked=one.tracked)
+        if one.section is not None and not one.section.is_cable:
+            part.upwards = upwards(one.mesh, one.section, basin.dim)
         (part.solids if one.mesh.kind == SOLIDS else part.plates).append(one.mesh)
         model.parts.append(part)
-    text += part_set(STRUCTURES, [one.part for one in basin.structures])
-    if basin.wet and not basin.box and not basin.solids:
+    faces = [one.part for one in basin.structures if one.mesh.kind != BEAMS]
+    text += part_set(STRUCTURES, faces) if faces else ""
+    if faces and basin.wet and not basin.box and not basin.solids:
         text += substitute(CONTROL, variables)
-    text += substitute(_WATER, variables) if basin.wet else ""
-    if basin.dim == 3 and rigid:
+    text += substitute(_WATER, variables) if basin.wet and faces else ""
+    if basin.dim == 3 and rigid and faces:
         text += part_set(OTHERS, rigid)
         text += touch("SURFACE_TO_SURFACE", 4, "deformable parts against walls and bodies", STRUCTURES, OTHERS, sbst=0.1 * basin.spacing,
                       friction=basin.friction_of_parts)
-    if basin.dim == 3:
+    if basin.dim == 3 and faces:
         text += touch("SINGLE_SURFACE", 5, "deformable parts against each other", STRUCTURES, 0, friction=basin.friction_of_parts)
     if any(len(one.tracked) for one in basin.structures):
         text += substitute(_NODES, variables)
@@ -187,19 +209,24 @@ def add_structures(basin: Basin, model: Model, rigid: list[int]) -> None:
 
 def _explain(basin: Basin, model: Model) -> None:
     for one in basin.structures:
-        what = "solids" if one.mesh.kind == SOLIDS else f"shells {one.thickness:g} thick"
-        held = f", {len(one.fixed)} nodes " + (f"go with part {one.to}" if one.to else "held") if len(one.fixed) else ", free"
+        what = "solids" if one.mesh.kind == SOLIDS else f"beams, {one.section.text()}" if one.section is not None else f"shells {one.thickness:g} thick"
+        bound = [f"{len(one.fixed)} nodes held"] if len(one.fixed) else []
+        bound += [f"{len(nodes)} nodes go with part {part}" for part, nodes in one.carried]
+        bound += [f"{len(one.shared) + len(one.ties)} nodes joined to other structures"] if one.shared or one.ties else []
+        held = f", {', '.join(bound or ['free'])}"
         model.choices.append((f"'{one.title}': {len(one.mesh.cells)} {what}{held}", material_text(one.material),
-                              f"*PART {one.part}, *SECTION_{'SOLID' if one.mesh.kind == SOLIDS else 'SHELL'}, "
-                              f"*MAT_{'PLASTIC_KINEMATIC' if one.material.yield_stress else 'ELASTIC'}"))
+                              f"*PART {one.part}, *SECTION_{one.mesh.kind.upper()[:-1]}, "
+                              f"*MAT_{'CABLE_DISCRETE_BEAM' if one.section is not None and one.section.is_cable else 'PLASTIC_KINEMATIC' if one.material.yield_stress else 'ELASTIC'}"))
+        if one.mesh.kind == BEAMS:
+            model.choices.append((f"'{one.title}' touches nothing" + (", water flows through it" if basin.wet else ""), "beams have no faces", "none"))
         if not basin.wet:
             continue
-        wave = one.mesh.side / one.material.sound_speed
+        wave = one.mesh.side / one.sound_speed
         limit = basin.spacing / basin.sound_speed
         if wave < 0.5 * limit:
             model.choices.append((f"'{one.title}' makes steps shorter: {wave:.2g} in its shortest element, {limit:.2g} in the water",
                                   "the time that sound takes through it limits the step", "*CONTROL_TIMESTEP; a larger 'size' makes longer steps"))
-    if not basin.wet:
+    if not basin.wet or all(one.mesh.kind == BEAMS for one in basin.structures):
         return
     model.choices.append(("water touches deformable parts" if basin.dim == 2 else "deformable parts touch water, walls, bodies and each other",
                           "the program knows no contact of elements in the plane" if basin.dim == 2 else "all that can touch does",

@@ -2,7 +2,6 @@
 of the hole."""
 from __future__ import annotations
 
-import os
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -11,89 +10,44 @@ import numpy as np
 
 from ..files import note_input
 from ..optional import MissingModule, module
-from .groups import Cells, cells_of, read_obj
+from .groups import Cells, tidied
+from .mesh_files import MESH_FILES, WITHOUT_GROUPS, check_file, read_cells
+from .mesh_objects import cells_of_object, cells_of_vtk
 from .outlines import OUTLINES, read_outline
 from .shapes import Shape, ShapeFault, faulty_edges, holes, merged, oriented, polyline
 
-_VTK = {".stl": ("vtkIOGeometry", "vtkSTLReader"), ".ply": ("vtkIOPLY", "vtkPLYReader"),
-        ".vtp": ("vtkIOXML", "vtkXMLPolyDataReader")}
-_MESHES = (".msh", ".vtk", ".vtu", ".inp", ".med", ".off", ".bdf", ".nas", ".unv")
-KNOWN = (*_VTK, ".obj", *_MESHES, *OUTLINES)
+KNOWN = (*MESH_FILES, *OUTLINES)
 _TOLERANCE = 1e-6  # of the size, within which vertices are the same
 
 
 def read_shape(path: Path, group: str = "") -> Shape:
     """The surface or polyline of a file, or of one of its groups, as it is. Raises ShapeFault."""
-    end = path.suffix.lower()
-    if end not in KNOWN:
-        raise ShapeFault(f"'{path}': files that end with '{end}' are not read here", f"known: {', '.join(KNOWN)}")
-    if not os.path.isfile(path):
-        raise ShapeFault(f"'{path}' is not there", "paths of a scene begin at its folder")
-    if group and (end in OUTLINES or end in _VTK):
-        raise ShapeFault(f"group: files that end with '{end}' have none", "OBJ, and meshes of Gmsh, Abaqus and others, have groups")
-    note_input(path)
-    try:
-        if end in OUTLINES:
+    end = check_file(path, KNOWN, group, (*OUTLINES, *WITHOUT_GROUPS))
+    if end in OUTLINES:
+        note_input(path)
+        try:
             return read_outline(path)
-        shape = _by_vtk(path, *_VTK[end]) if end in _VTK else _of_cells((read_obj(path) if end == ".obj" else cells_of(module("meshio").read(path))).of(group))
-    except MissingModule as fault:
-        raise ShapeFault(str(fault)) from None
-    except ShapeFault:
-        raise
-    except (Exception, SystemExit) as fault:  # libraries announce faults of files in many ways
-        raise ShapeFault(f"'{path}' cannot be read: {' '.join(str(fault).split())[:200]}") from None
+        except ShapeFault:
+            raise
+        except Exception as fault:
+            raise ShapeFault(f"'{path}' cannot be read: {' '.join(str(fault).split())[:200]}") from None
+    shape = surface_of(read_cells(path, group).of(group))
     if not len(shape.faces):
         raise ShapeFault(f"'{path}' holds no faces", "is it whole, and of the format that its name tells?")
     return replace(shape, name=path.stem)
 
 
-def _by_vtk(path: Path, home: str, name: str) -> Shape:
-    reader = getattr(module(f"vtkmodules.{home}"), name)()
-    module("vtkmodules.vtkCommonCore").vtkObject.GlobalWarningDisplayOff()
-    reader.SetFileName(str(path))
-    reader.Update()
-    return _of_vtk(reader.GetOutput())
-
-
-def _of_vtk(data: Any) -> Shape:
-    """A vtkPolyData, or the outer surface of any other data set of VTK."""
-    filters = module("vtkmodules.vtkFiltersCore")
-    if not data.IsA("vtkPolyData"):
-        surface = module("vtkmodules.vtkFiltersGeometry").vtkGeometryFilter()
-        surface.SetInputData(data)
-        surface.Update()
-        data = surface.GetOutput()
-    triangles = filters.vtkTriangleFilter()
-    triangles.SetInputData(data)
-    triangles.PassLinesOff()
-    triangles.PassVertsOff()
-    triangles.Update()
-    return _arrays(triangles.GetOutput())
-
-
-def _arrays(data: Any) -> Shape:
-    to_numpy = module("vtkmodules.util.numpy_support").vtk_to_numpy
-    points = data.GetPoints()
-    if points is None or not data.GetNumberOfPolys():
-        return Shape(np.zeros((0, 3)), np.zeros((0, 3), dtype=int), 3)
-    faces = to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    return Shape(np.array(to_numpy(points.GetData()), dtype=float), np.array(faces, dtype=int), 3)
-
-
 def shape_of(thing: Any, group: str = "") -> Shape:
     """The surface of a mesh of PyVista, VTK, meshio or trimesh, of (points, triangles), or of points (n, 2) of a closed polyline; of a mesh of meshio
     also that of one of its groups. Raises ShapeFault."""
-    if group and not (hasattr(thing, "points") and hasattr(thing, "cells") and not hasattr(thing, "IsA")):
-        raise ShapeFault(f"group: a {type(thing).__name__} has none", "meshes of meshio have groups")
-    if hasattr(thing, "IsA"):
-        return _of_vtk(thing)
-    if hasattr(thing, "vertices") and hasattr(thing, "faces"):
-        return Shape(np.asarray(thing.vertices, dtype=float), np.asarray(thing.faces, dtype=int), 3)
-    if hasattr(thing, "points") and hasattr(thing, "cells"):
-        return _of_cells(cells_of(thing).of(group))
-    if isinstance(thing, tuple) and len(thing) == 2 and np.ndim(thing[0]) == 2 and np.ndim(thing[1]) == 2 and np.shape(thing[1])[1] == 3 \
-            and np.shape(thing[0])[1] == 3:
-        return Shape(np.asarray(thing[0], dtype=float), np.asarray(thing[1], dtype=int), 3)
+    try:
+        cells = cells_of_object(thing)
+    except MissingModule as fault:
+        raise ShapeFault(str(fault)) from None
+    if group and (cells is None or not cells.groups):
+        raise ShapeFault(f"group: a {type(thing).__name__} has none", "meshes of meshio and models of Gmsh have groups")
+    if cells is not None:
+        return surface_of(cells.of(group))
     if (xy := polygon_of(thing)) is not None:
         return replace(polyline(xy, closed=len(xy) > 2), name="line")
     raise ShapeFault(f"a {type(thing).__name__} is no surface", "give a file, a mesh of PyVista, VTK, meshio or trimesh, (points, triangles), or points (n, 2)")
@@ -108,17 +62,23 @@ def polygon_of(thing: Any) -> np.ndarray | None:
     return xy if xy.ndim == 2 and xy.shape[1] == 2 and len(xy) > 1 else None
 
 
-def _of_cells(mesh: Cells) -> Shape:
-    """The outer faces of its solids, whose sides may be there as well; where it has none, its triangles and quadrangles; where it has neither, its lines."""
+def surface_of(mesh: Cells) -> Shape:
+    """The outer faces of its solids, whose sides may be there as well; where it has none, its triangles and quadrangles; where it has neither, its lines in
+    the plane. Raises ShapeFault."""
     blocks = [(block.type, block.data) for block in mesh.cells]
     faces = _outer([data[:, corners] for kind, data in blocks for corners in _SIDES.get(kind, ())])
     if not len(faces):
         flat = [_fan(data, {"triangle": 3, "quad": 4}[kind]) for kind, data in blocks if kind in ("triangle", "quad")]
         faces = np.concatenate(flat) if flat else faces
     if len(faces):
-        return _used(mesh.points, faces, 3)
+        return replace(_used(mesh.points, faces, 3), notes=list(mesh.notes))
     lines = [data for kind, data in blocks if kind == "line"]
-    return _used(mesh.points, np.concatenate(lines) if lines else np.zeros((0, 3), dtype=int), 2 if lines else 3)
+    if not lines:
+        return Shape(np.zeros((0, 3)), np.zeros((0, 3), dtype=int), 3)
+    shape = replace(_used(mesh.points, np.concatenate(lines), 2), notes=list(mesh.notes))
+    if np.ptp(shape.points[:, 2]) > _TOLERANCE * np.ptp(shape.points, axis=0).max():
+        raise ShapeFault("the mesh has lines in space alone, which bound nothing", "a structure with a 'section' takes lines as beams")
+    return shape
 
 
 _SIDES = {"tetra": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)),
@@ -201,7 +161,7 @@ def _filled(shape: Shape) -> Shape:
     fill.SetInputData(data)
     fill.SetHoleSize(1e3 * float(np.max(shape.high - shape.low)))
     fill.Update()
-    made = merged(_of_vtk(fill.GetOutput()), _TOLERANCE)
+    made = merged(surface_of(tidied(cells_of_vtk(fill.GetOutput()))), _TOLERANCE)
     centres = "; ".join("(" + ", ".join(f"{v:.4g}" for v in centre) + f"), {size:.3g} across" for centre, size, _ in found[:3])
     return replace(shape, points=made.points, faces=made.faces, notes=[*shape.notes, f"{len(found)} hole{'s' * (len(found) > 1)} closed: {centres}"])
 

@@ -44,7 +44,7 @@ void rates_of_ghosts(const GhostArrays& arrays, const NeighbourLists& lists) {
   const Pack reach = reach2(kernel, a.h);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     Pack weight = Pack::zero(), rate = weight;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
@@ -72,7 +72,7 @@ void squeezed(const GhostArrays& arrays, const NeighbourLists& lists) {
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     if (lists.start[g] == lists.start[g + 1]) continue;
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
-    const Places<Dim> xi(a.x, i, count), vi(a.v, i, count);
+    const Positions<Dim> xi(a.x, i, count), vi(a.v, i, count);
     Pack sum = Pack::zero();
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {
       const std::ptrdiff_t j = lists.list[k];
@@ -94,7 +94,7 @@ void pressures(const GhostArrays& arrays, const NeighbourLists& lists) {
   const Pack reach = reach2(kernel, a.h);
   for (Index i = lists.begin, g = 0; i < lists.end; i += lanes, ++g) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes, at = i - a.first;
-    const Places<Dim> xi(a.x, i, count), carried(a.g, at, count);
+    const Positions<Dim> xi(a.x, i, count), carried(a.g, at, count);
     Pack weight = Pack::zero(), mean = weight, rise = weight;
     Sum<Dim> slope, push;
     for (Index k = lists.start[g]; k < lists.start[g + 1]; ++k) {

@@ -1,12 +1,12 @@
 #pragma once
-// The sums by which fixed ghost particles take on what the water before their wall does; compiled once for
-// each instruction set, as pair_loops.hpp.
+// Sums by which fixed ghost particles take the state of the water in front of their wall; compiled once
+// per instruction set, as pair_loops.hpp.
 #include "sph/core/neighbour_lists.hpp"
 #include "sph/kernel/kernel_choice.hpp"
 
 namespace courant {
 
-/// What these loops read and write: arrays over all particles, then ghosts.
+/// Input and output of these loops: arrays over all particles, then ghosts.
 struct GhostArrays {
   const Real* x[3];
   const Real* v[3];
@@ -17,7 +17,7 @@ struct GhostArrays {
   const Real* tau[6];
   Real* drhodt;  ///< of particles alone
   Real h;
-  Real half_step;           ///< half of the step that led here: rates hold in its middle [T]
+  Real half_step;           ///< half of the last step: rates are those of its middle [T]
   const AnyKernel* kernel;  ///< that of the run
   // of ghost k = entity first + k alone, at index k
   Index first;
@@ -36,9 +36,8 @@ using GhostLoop = void (*)(const GhostArrays&, const NeighbourLists&);
 /// Of ghosts: volume_rate = V sum_j V_j v_gj . grad W, in the middle of the step as `rates_loop` does, and
 /// squeeze, that over the sum of the weights V_j W by which it takes pressures.
 GhostLoop ghost_rate_loop(KernelChoice kernel, int dim);
-/// Of particles, over the ghosts that they see: drhodt += rho sum_g W squeeze_g: what the wall compresses,
-/// each particle gets by the weight that its pressure has for the ghost. So pressure works as much as it
-/// stores.
+/// For particles, over ghosts in range: drhodt += rho sum_g W squeeze_g. The compression of the wall is
+/// distributed by the weights of pressure, so the work of pressure equals the stored energy.
 GhostLoop squeezed_by_ghosts_loop(KernelChoice kernel, int dim);
 /// Of ghosts: pressure = sum_j V_j W (p_j + rho_j g.(x - x_j)) / sum_j V_j W, Adami, Hu and Adams
 /// 2012, eq. 27; force = -V sum_j V_j (pressure + p_j) grad W, which is what `forces_loop` does to the

@@ -32,13 +32,13 @@ class PartFrame {
   std::array<Index, 3> node_{};  ///< far apart, and not on one line; in 2D two of them
 };
 
-/// Ghosts are on the lattice of the water behind the shells, and go where these go. Their volume is that of
-/// a particle at rest; they have no mass, so that artificial viscosity leaves them alone. Before each force
-/// they take on the pressure that the water has there (Adami, Hu and Adams 2012), with what carries it along
-/// with walls whose motion is prescribed. (That of others follows from the pressure, and would swing.) Pair
-/// loops do the rest. Water that is squeezed against the wall squeezes the ghosts: that goes to the density
-/// of those particles whose pressure they have, so that walls at rest do no work. Parts that move get what
-/// pairs do to their ghosts.
+/// Ghosts continue the lattice of the water behind the shells and move with these. Their volume is that of
+/// a particle at rest; they have no mass, so artificial viscosity does not act on them. Before each force
+/// pass they take the pressure of the water (Adami, Hu and Adams 2012), including the acceleration of
+/// walls with prescribed motion. (The acceleration of other walls follows from the pressure and would
+/// cause oscillations.) Ordinary pair loops do the rest. Compression of water against the wall compresses
+/// the ghosts: their density rate is passed to the particles in proportion to their weight in the
+/// pressure, so that walls at rest do no work. Moving parts receive the pair forces on their ghosts.
 class WallGhosts : public Ghosts,
                    public Rate,
                    public Refresh,
@@ -47,10 +47,10 @@ class WallGhosts : public Ghosts,
                    public WallForceReporter,
                    public PointForceReporter {
  public:
-  /// `laid`: where the scene starts. `driven`, by part: motions are prescribed.
+  /// `laid`: initial positions. `driven`, by part: prescribed motion.
   WallGhosts(const SphSettings& s, World& world, const std::vector<WallGhost>& laid,
              const std::vector<char>& driven);
-  /// Before the first refresh. `copies`: of these ghosts, behind planes; null: there are no planes.
+  /// Call before the first refresh. `copies`: copies of these ghosts behind planes; null: no planes.
   void set_lists(const Neighbours& neighbours, std::shared_ptr<const GhostParticles> copies) {
     neighbours_ = &neighbours, copies_ = std::move(copies);
   }
@@ -72,15 +72,15 @@ class WallGhosts : public Ghosts,
   void keep(Archive& archive) override;
   void relist(World& world) override;
 
-  /// The work of ghosts is that of the mean pressure of particles, but for the weight of what is between
-  /// these and the ghosts.
+  /// Work of ghosts, from the mean pressure of particles, except for the weighting between these and the
+  /// ghosts.
   void record(World& world, const Clock& clock, EnergyLedger& ledger) override;
   void sample(const World&, const Clock&, EnergyLedger&) const override {}
 
   bool any_moves() const { return frames_.size() > 1; }
   /// Pressure of particles as pair forces take it.
   const Field<Real>& pressure() const { return pressure_; }
-  /// Adds what pairs do to ghosts to the nodes and faces of parts that move, or of those that are held.
+  /// Adds the pair forces on ghosts to the nodes and faces of moving or fixed parts.
   void add_forces(World& world, bool moving) const;
   void take_back_forces(World& world);
 
@@ -92,7 +92,7 @@ class WallGhosts : public Ghosts,
   struct Ghost {
     Vec x;  ///< in the axes of its frame [L]
     Index segment;
-    Index frame;  ///< 0: it is held
+    Index frame;  ///< 0: fixed
   };
   struct List {  ///< of a block, by groups
     std::vector<Index> entries;
@@ -126,22 +126,22 @@ class WallGhosts : public Ghosts,
   Field<Real>* potential_ = nullptr;  ///< where density diffuses
   Field<Real>* stress_ = nullptr;
   GhostLoop rate_loop_, squeeze_loop_, pressure_loop_;
-  const Neighbours* neighbours_ = nullptr;  ///< which hold the ghosts
+  const Neighbours* neighbours_ = nullptr;  ///< that include the ghosts
   std::shared_ptr<const GhostParticles> copies_;
   std::shared_ptr<PairVolumes> volumes_;
   std::vector<Ghost> all_;
-  std::vector<PartFrame> frames_;            ///< the first one is of what is held, and stays where it is
+  std::vector<PartFrame> frames_;            ///< the first one is fixed
   std::vector<char> driven_;                 ///< by frame
   std::vector<Vec> velocity_, omega_;        ///< of driven frames in the step before [L/T], [1/T]
   std::vector<Vec> acceleration_, angular_;  ///< of driven frames; 0 in the first step [L/T2], [1/T2]
   std::vector<Box> boxes_;                   ///< around the ghosts of each frame, in its axes
-  std::vector<PartFrame::Pose> built_;       ///< where frames were when neighbours were searched last
+  std::vector<PartFrame::Pose> built_;       ///< frames at the last neighbour search
   bool loaded_ = false;                      ///< `built_` comes from a saved state
   std::vector<Index> here_;                  ///< ghosts within reach of the water, in the order of entities
   std::vector<List> lists_, seen_;  ///< of each block of ghosts, the particles near; of particles, the ghosts
   Array<Real> rise_[3], force_[3], value_, excess_, excess_before_, saved_excess_, squeeze_, volume_rate_;
   Real half_step_ = 0;        ///< half of the last step that was chosen [T]
-  std::vector<Index> shown_;  ///< segments that have forces of this step
+  std::vector<Index> shown_;  ///< segments with forces in this step
 };
 
 /// *COURANT_WALL_SUPPORT with METHOD 2: lays the ghosts; null where the scene has none. Call while particles

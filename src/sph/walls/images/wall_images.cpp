@@ -1,4 +1,4 @@
-// METHOD 1 of *COURANT_WALL_SUPPORT: walls as mirrors of the water beside them.
+// METHOD 1 of *COURANT_WALL_SUPPORT: walls as mirrors.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,8 +36,8 @@ WallImages::WallImages(const SphSettings& s, World& world, std::shared_ptr<Neigh
       width_(WallPaths::usual_width * s.spacing),
       any_moves_(support_->any_moves()),
       kernel_(&any_kernel(s.kernel)),
-      room_rates_(mirror_rates_loop(s.kernel, s.dim)),
-      room_forces_(mirror_forces_loop(s.kernel, s.dim)),
+      sub_domain_rates_(mirror_rates_loop(s.kernel, s.dim)),
+      sub_domain_forces_(mirror_forces_loop(s.kernel, s.dim)),
       edge_rates_(edge_rates_loop(s.kernel, s.dim)),
       edge_forces_(edge_forces_loop(s.kernel, s.dim)) {
   if (diffusion_) potential_ = &sph_fields::potential(world.particles);
@@ -78,7 +78,7 @@ void WallImages::keep(Archive& archive) {
   if (any_moves_) archive("searched_at", searched_at_);
 }
 
-/// Walls are searched where they were.
+/// The search uses the wall positions of the last refresh.
 void WallImages::relist(World& world) {
   std::vector<Vec> now;
   const bool known = searched_at_.size() == nodes_.size();
@@ -90,7 +90,7 @@ void WallImages::relist(World& world) {
 
 void WallImages::search(const World& world) {
   if (!any_moves_) return;
-  std::optional<Lookouts> from;
+  std::optional<OccupiedCells> from;
   if (world.particles.active > 0) from.emplace(world.particles, reach_, walls_.planes);
   surface_.emplace(world, walls_.segments, spacing_, reach_, walls_.planes, from ? &*from : nullptr,
                    &walls_.belts);
@@ -104,50 +104,50 @@ void WallImages::look(World& world) {
   const auto n = static_cast<std::size_t>(p.active);
   if (any_moves_) sheets_.assign(n, {}), flats_.assign(n, -1), before_flat_.assign(n, 0);
   if (any_moves_) moving_edges_.assign(n, {});
-  rooms_.assign(n, nullptr), own_rooms_.resize(n), strange_.assign(n, 0);
+  sub_domains_.assign(n, nullptr), own_sub_domains_.resize(n), skipped_.assign(n, 0);
   edges_.assign(n, nullptr), own_edges_.resize(n);
   for_each(p.active, [&](Index i) {
     force_.set(i, Vec::Zero());
     if (!support_->is_near(i)) return;
-    if (!viscosity_ && support_->outlooks()) find_room(p, i);
+    if (!viscosity_ && support_->visibility()) find_sub_domain(p, i);
     if (!any_moves_) return;
     sheets_[i] = at_end().seen_from(p.x.vec(i));
-    if (!viscosity_) any_moves_among(i) ? find_flat(p, i) : find_held_room(p, i);
+    if (!viscosity_) any_moves_among(i) ? find_flat(p, i) : find_held_sub_domain(p, i);
     if (!viscosity_ && any_moves_among(i) && flats_[i] < 0) find_moving_edge(p, i);
     if (mixed_ && sheets_[i].size() == 1 && sheets_[i][0].endless)  // whose faces may not be alike
       sheets_[i][0].faces = surface().faces_around(p.x.vec(i));
   });
 }
 
-/// A closed room, an edge and nothing else, or a sub-domain some ways leave.
-void WallImages::find_room(const Particles& p, Index i) {
+/// Finds a closed sub-domain, an isolated edge, or an open sub-domain.
+void WallImages::find_sub_domain(const Particles& p, Index i) {
   const auto k = static_cast<std::size_t>(i);
-  const WallOutlooks& outlooks = *support_->outlooks();
+  const WallVisibility& visibility = *support_->visibility();
   const Vec x = p.x.vec(i);
   const Real sight = support_->sight_until_search(p, i);
-  if ((rooms_[k] = outlooks.room(i, x, sight, own_rooms_[k]))) return;
-  own_edges_[k] = outlooks.paths().edge_about(outlooks.of(i).sheets, x, sight);
+  if ((sub_domains_[k] = visibility.sub_domain(i, x, sight, own_sub_domains_[k]))) return;
+  own_edges_[k] = visibility.paths().edge_about(visibility.of(i).sheets, x, sight);
   if (own_edges_[k])
     edges_[k] = &*own_edges_[k];
   else
-    rooms_[k] = outlooks.open_room(i, x, sight, own_rooms_[k]);
+    sub_domains_[k] = visibility.open_sub_domain(i, x, sight, own_sub_domains_[k]);
 }
 
-/// The same beside walls that are held, where others move, out of sight.
-void WallImages::find_held_room(const Particles& p, Index i) {
+/// The same beside fixed walls while other walls, out of sight, move.
+void WallImages::find_held_sub_domain(const Particles& p, Index i) {
   const auto k = static_cast<std::size_t>(i);
   const Vec x = surface().in_plane(p.x.vec(i));
   const Real sight = support_->sight_until_search(p, i);
   const WallPaths::Sheets around = at_end().sheets_around(x, sight + 0.5 * width_);
-  own_rooms_[k] = at_end().closed_room_about(around, x, sight);
-  if (!own_rooms_[k]) {
+  own_sub_domains_[k] = at_end().closed_sub_domain_about(around, x, sight);
+  if (!own_sub_domains_[k]) {
     own_edges_[k] = at_end().edge_about(around, x, sight);
     if (own_edges_[k])
       edges_[k] = &*own_edges_[k];
     else
-      own_rooms_[k] = at_end().open_room_about(around, x, sight);
+      own_sub_domains_[k] = at_end().open_sub_domain_about(around, x, sight);
   }
-  rooms_[k] = own_rooms_[k].get();
+  sub_domains_[k] = own_sub_domains_[k].get();
 }
 
 void WallImages::declare(const World& world, Accesses& a) const {
@@ -174,97 +174,97 @@ void WallImages::start(World& world, const Clock& clock) {
 
 void WallImages::block(World& world, const Clock&, Index begin, Index end) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
-  block.paths.clear(), block.pulls.clear(), block.reactions.clear();
+  block.paths.clear(), block.derivatives.clear(), block.reactions.clear();
   block.belt_power = 0;
-  for (Outlook& outlook : block.outlooks) outlook.i = -1;
+  for (Viewpoints& viewpoints : block.viewpoints) viewpoints.i = -1;
   if (!viscosity_) {
-    place_edges_in_middle(begin, end, block);
+    update_edges_in_middle(begin, end, block);
     const WallMirrorArrays a = arrays_of_rates(world.particles, begin);
-    room_rates_(a, lists_of(*neighbours_, begin, end));
+    sub_domain_rates_(a, lists_of(*neighbours_, begin, end));
     edge_rates_(a, lists_of(*neighbours_, begin, end));
-    add_doubtful_ways(world.particles, begin, block);
+    add_doubtful_paths(world.particles, begin, block);
   }
   for (Index i = begin; i < end; ++i) {
-    if (!sees(i) || in_room(i)) continue;
+    if (!sees(i) || in_sub_domain(i)) continue;
     const bool moves = any_moves_among(i);
     if (any_moves_ && (before_flat_[i] = has_flat_to_itself(world.particles, i))) {
       add_flat_rate(world.particles, i);
       continue;
     }
-    if (moves) place_sheets(i, block);
+    if (moves) update_sheets(i, block);
     for (const Index j : neighbours_->of_group(i / Neighbours::lanes))
-      moves ? add_ways_of_moving(world.particles, i, j, block) : add_ways(world.particles, i, j, block);
+      moves ? add_paths_of_moving(world.particles, i, j, block) : add_paths(world.particles, i, j, block);
   }
   if (!viscosity_) return;
   for (Index i = begin; i < end; ++i) drag_->set(i, Vec::Zero());
   for (const WallPath& path : block.paths) drag(world.particles, path, block);
 }
 
-/// Where particle i is in the middle of the step; beside walls that move once these are placed there.
-WallImages::Outlook& WallImages::outlook(const Particles& p, Index i, Block& block) const {
-  block.outlooks.resize(Neighbours::lanes);
-  Outlook& out = block.outlooks[static_cast<std::size_t>(i % Neighbours::lanes)];
+/// Viewpoint of particle i in the middle of the step; sheets of moving walls must be updated before.
+WallImages::Viewpoints& WallImages::viewpoints(const Particles& p, Index i, Block& block) const {
+  block.viewpoints.resize(Neighbours::lanes);
+  Viewpoints& out = block.viewpoints[static_cast<std::size_t>(i % Neighbours::lanes)];
   if (out.i == i) return out;
   out.i = i, out.knows_end = false;
   const bool moves = any_moves_among(i);
   (moves ? *in_middle_ : at_end())
-      .stand(moves ? block.in_middle : sheets(i), p.x.vec(i) - half_step_ * p.v.vec(i),
-             kernel_->support * p.h[i], out.middle);
+      .look_from(moves ? block.in_middle : sheets(i), p.x.vec(i) - half_step_ * p.v.vec(i),
+                 kernel_->support * p.h[i], out.middle);
   return out;
 }
 
-/// Ways are looked for in the middle of the step, where its rates belong, and taken along to its end, where
-/// forces act; those on their way over an edge are looked at there again.
-void WallImages::add_ways(Particles& p, Index i, Index j, Block& block) {
+/// Paths are searched at the middle of the step, the time of the rates, and moved to its end, the time of
+/// the forces. Paths near an edge are searched again there.
+void WallImages::add_paths(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Real reach = kernel_->support * p.h[i];
   if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
-  Outlook& from = outlook(p, i, block);
+  Viewpoints& from = viewpoints(p, i, block);
   std::vector<WallPath>& paths = block.paths;
   const std::size_t first = paths.size();
   at_end().add(from.middle, i, j, in_the_middle(j), paths);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
-    add_rate(p, paths[k], block.pulls);
+    add_rate(p, paths[k], block.derivatives);
     at_edge |= std::abs(paths[k].weight) < 1;
     paths[k].d += half_step_ * speed(p, paths[k]);
   }
   if (!at_edge) return;
   paths.resize(first);
-  add_ways_at_end(p, j, from, paths);
+  add_paths_at_end(p, j, from, paths);
 }
 
-void WallImages::add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
-                                 std::vector<WallPull>* pulls) const {
+void WallImages::add_paths_at_end(const Particles& p, Index j, Viewpoints& from, std::vector<WallPath>& to,
+                                  std::vector<WallDerivative>* derivatives) const {
   if (!std::exchange(from.knows_end, true))
-    at_end().stand(sheets(from.i), p.x.vec(from.i), kernel_->support * p.h[from.i], from.end);
-  at_end().add(from.end, from.i, j, p.x.vec(j), to, pulls);
+    at_end().look_from(sheets(from.i), p.x.vec(from.i), kernel_->support * p.h[from.i], from.end);
+  at_end().add(from.end, from.i, j, p.x.vec(j), to, derivatives);
 }
 
-/// Brings what particle i sees to where walls are in the middle of the step and at its end.
-void WallImages::place_sheets(Index i, Block& block) {
+/// Updates the sheets of particle i to the middle and the end of the step.
+void WallImages::update_sheets(Index i, Block& block) {
   block.in_middle = sheets_[i];
-  in_middle_->place(block.in_middle);
-  at_end().place(sheets_[i]);
+  in_middle_->update(block.in_middle);
+  at_end().update(sheets_[i]);
 }
 
-/// The same where walls move.
-void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block) {
+/// The same beside moving walls.
+void WallImages::add_paths_of_moving(Particles& p, Index i, Index j, Block& block) {
   const auto in_the_middle = [&](Index k) { return Vec(p.x.vec(k) - half_step_ * p.v.vec(k)); };
   const Real reach = kernel_->support * p.h[i];
   if ((in_the_middle(j) - in_the_middle(i)).squaredNorm() > power<2>(reach * rounded)) return;
   std::vector<WallPath>& paths = block.paths;
-  const std::size_t first = paths.size(), first_pull = block.pulls.size();
-  Outlook& from = outlook(p, i, block);
-  in_middle_->add(from.middle, i, j, in_the_middle(j), paths, &block.pulls);
+  const std::size_t first = paths.size(), first_derivative = block.derivatives.size();
+  Viewpoints& from = viewpoints(p, i, block);
+  in_middle_->add(from.middle, i, j, in_the_middle(j), paths, &block.derivatives);
   bool at_edge = false;
   for (std::size_t k = first; k < paths.size(); ++k) {
-    add_rate(p, paths[k], block.pulls);
+    add_rate(p, paths[k], block.derivatives);
     at_edge |= std::abs(paths[k].weight) < 1;
   }
   if (at_edge) {
-    paths.resize(first), block.pulls.resize(first_pull);
-    add_ways_at_end(p, j, from, paths, &block.pulls);
+    paths.resize(first), block.derivatives.resize(first_derivative);
+    add_paths_at_end(p, j, from, paths, &block.derivatives);
   }
   for (std::size_t k = first; k < paths.size(); ++k)
     if (paths[k].moves)
@@ -273,7 +273,7 @@ void WallImages::add_ways_of_moving(Particles& p, Index i, Index j, Block& block
       paths[k].d += half_step_ * speed(p, paths[k]);
 }
 
-/// Of particle i over the image of j. [L/T]
+/// Velocity of particle i relative to the image of j. [L/T]
 Vec WallImages::speed(const Particles& p, const WallPath& path) const {
   const Vec over = p.v.vec(path.i) - path.turn * p.v.vec(path.j);
   return path.moves ? Vec(over - path.drift) : over;
@@ -283,16 +283,17 @@ Real WallImages::kept(const WallPath& path) const {
   return (1 - edge_loss_[path.i]) * (1 - edge_loss_[path.j]);
 }
 
-void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls) {
+void WallImages::add_rate(Particles& p, const WallPath& path,
+                          const std::vector<WallDerivative>& derivatives) {
   const Real h = p.h[path.i], V = volumes_->current()[path.j], W = kernel(h, path.d);
   Real share_rate = path.by_i.dot(p.v.vec(path.i)) + path.by_j.dot(p.v.vec(path.j));
-  for (Index k = path.pulls; k < path.pulls_end; ++k) {
-    const WallPull& pull = pulls[static_cast<std::size_t>(k)];
-    const Vec v = in_middle_->velocity(pull.face, pull.at);
-    share_rate += pull.force.dot(v);
-    if (!pull.lever.isZero())
-      share_rate +=
-          in_middle_->face(pull.face).n.dot(in_middle_->velocity(pull.face, pull.at + pull.lever) - v);
+  for (Index k = path.derivatives; k < path.derivatives_end; ++k) {
+    const WallDerivative& derivative = derivatives[static_cast<std::size_t>(k)];
+    const Vec v = in_middle_->velocity(derivative.face, derivative.at);
+    share_rate += derivative.force.dot(v);
+    if (!derivative.lever.isZero())
+      share_rate += in_middle_->face(derivative.face)
+                        .n.dot(in_middle_->velocity(derivative.face, derivative.at + derivative.lever) - v);
   }
   p.drhodt[path.i] +=
       p.rho[path.i] * V *
@@ -301,8 +302,8 @@ void WallImages::add_rate(Particles& p, const WallPath& path, const std::vector<
     edge_sum_[path.weight > 0 ? 0 : 1][static_cast<std::size_t>(path.i)] += V * W * path.by_i.norm();
 }
 
-/// Those of pairs of which particle i is in a sub-domain that one of its ways may leave.
-void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
+/// Paths of pairs that may leave the sub-domain of particle i.
+void WallImages::add_doubtful_paths(Particles& p, Index begin, Block& block) {
   const Index* const list = neighbours_->list(begin / block_size);
   const Index* const start = neighbours_->starts(begin / block_size);
   Index group = 0;
@@ -311,12 +312,12 @@ void WallImages::add_doubtful_ways(Particles& p, Index begin, Block& block) {
     while (entry >= start[group + 1]) ++group;
     for (Index l = 0; l < Neighbours::lanes; ++l) {
       if ((block.doubt_lanes[static_cast<std::size_t>(k)] >> l & 1) == 0) continue;
-      add_ways(p, begin + group * Neighbours::lanes + l, list[entry], block);
+      add_paths(p, begin + group * Neighbours::lanes + l, list[entry], block);
     }
   }
 }
 
-/// What rates need; forces need more.
+/// Arrays common to rates and forces.
 WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   const auto entries = static_cast<std::size_t>(neighbours_->entries(begin / block_size));
@@ -324,13 +325,14 @@ WallMirrorArrays WallImages::arrays(Particles& p, Index begin) {
   WallMirrorArrays a{};
   a.doubt = block.doubt.data(), a.doubt_lanes = block.doubt_lanes.data(), a.doubts = &block.doubts;
   a.width = width_;
-  if (block.has_moving_edges) a.pull = block.edge_pulls.data(), a.ways = block.ways.data();
+  if (block.has_moving_edges)
+    a.reaction = block.edge_reactions.data(), a.edge_paths = block.edge_paths.data();
   for (int k = 0; k < 3; ++k) a.x[k] = p.x.data(k), a.aside[k] = at_end().shift()[k];
   a.V = volumes_->current(), a.rho = p.rho.data();
   a.h = p.active > 0 ? p.h[0] : 1, a.delta = delta_, a.half_step = half_step_;
   a.edge_loss = edge_loss_.data();
   for (int k = 0; k < 2; ++k) a.edge_sum[k] = edge_sum_[k].data();
-  a.room = rooms_.data(), a.edge = edges_.data(), a.strange = strange_.data(), a.kernel = kernel_;
+  a.domain = sub_domains_.data(), a.edge = edges_.data(), a.skipped = skipped_.data(), a.kernel = kernel_;
   return a;
 }
 
@@ -371,12 +373,12 @@ void WallImages::forces(World& world, Index begin, Index end) {
   Particles& p = world.particles;
   const Real* V = volumes_->current();
   for (Index i = begin; i < end; ++i)
-    if (sees(i) && !in_room(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
+    if (sees(i) && !in_sub_domain(i)) force_.set(i, drag_ ? drag_->vec(i) : Vec(Vec::Zero()));
   Block& block = blocks_[static_cast<std::size_t>(begin / block_size)];
   if (!viscosity_) {
-    place_edges_at_end(begin, end, block);
+    update_edges_at_end(begin, end, block);
     const WallMirrorArrays a = arrays_of_forces(p, begin);
-    room_forces_(a, lists_of(*neighbours_, begin, end));
+    sub_domain_forces_(a, lists_of(*neighbours_, begin, end));
     edge_forces_(a, lists_of(*neighbours_, begin, end));
     react_of_edges(p, begin, end, block);
   }
@@ -386,15 +388,15 @@ void WallImages::forces(World& world, Index begin, Index end) {
     const Index i = path.i, j = path.j;
     const Real share = path.weight * V[j] * slope(p.h[i], path.d), pressure = pressure_[i] + pressure_[j],
                W = kept(path) * V[j] * kernel(p.h[i], path.d);
-    // the path to oneself represents the path back, too, which in a corner is another
+    // the path of a particle to itself represents its reverse, too, which differs in a corner
     const Vec d = path.moves && i == j ? Vec(0.5 * (path.d - path.turn.transpose() * path.d)) : path.d;
     const Vec force = -V[i] * pressure * (share * d + W * path.by_i);
     p.f.add(i, force);
     force_.add(i, path.weight > 0 ? force : Vec(-V[i] * pressure * W * path.by_i));
-    if (path.moves || path.pulls < path.pulls_end)
+    if (path.moves || path.derivatives < path.derivatives_end)
       react(p, path, -V[i] * pressure * share * path.d, -V[i] * pressure * W, block);
     if (!diffusion_) continue;
-    // behind the wall pressure goes on as at rest, so what it differs by is the same as without the wall
+    // pressure behind the wall is hydrostatic, so its difference is the same as without the wall
     const Vec x = p.x.vec(i);
     const Real rise = now_.rise(x, p.x.vec(j) - x, p.part[i]);
     (*diffusion_)[i] -=
@@ -402,21 +404,21 @@ void WallImages::forces(World& world, Index begin, Index end) {
   }
 }
 
-/// What walls that move get of a path, half of it here and half by the way back: by the force on particle i
-/// along it, and by how its share goes over, to which the force on particle i is `per_share`.
+/// Reaction of a path on moving walls, half of it here and half by the reverse path: from the force on
+/// particle i along the path, and from the derivatives of its share, with the force `per_share`.
 void WallImages::react(const Particles& p, const WallPath& path, const Vec& force, Real per_share,
                        Block& block) const {
-  for (Index k = path.pulls; k < path.pulls_end; ++k)
-    give(block.pulls[static_cast<std::size_t>(k)], 0.5 * per_share, block);
+  for (Index k = path.derivatives; k < path.derivatives_end; ++k)
+    give(block.derivatives[static_cast<std::size_t>(k)], 0.5 * per_share, block);
   if (!path.moves) return;
   block.now.clear();
-  at_end().pull_images(sheets_[path.i], path, p.x.vec(path.j), -force, block.now);
-  for (const WallPull& pull : block.now) give(pull, -0.5, block);
+  at_end().add_image_derivatives(sheets_[path.i], path, p.x.vec(path.j), -force, block.now);
+  for (const WallDerivative& derivative : block.now) give(derivative, -0.5, block);
 }
 
-void WallImages::give(const WallPull& pull, Real times, Block& block) const {
-  const WallSurface::Face& face = at_end().face(pull.face);
-  const Vec at = pull.at - at_end().shift(), force = face.from_image * (times * pull.force),
+void WallImages::give(const WallDerivative& derivative, Real times, Block& block) const {
+  const WallSurface::Face& face = at_end().face(derivative.face);
+  const Vec at = derivative.at - at_end().shift(), force = face.from_image * (times * derivative.force),
             normal = face.from_image * (times * face.n);
   auto& all = block.reactions;
   auto known =
@@ -424,8 +426,8 @@ void WallImages::give(const WallPull& pull, Real times, Block& block) const {
   Reaction& to = known != all.rend() ? *known : all.emplace_back(Reaction{.segment = face.segment});
   const auto weight = surface_->weights_of_nodes(face, at);
   for (std::size_t e = 0; e < 4; ++e) to.on_node[e] += weight[e] * force;
-  if (pull.lever.isZero()) return;
-  const auto there = surface_->weights_of_nodes(face, at + pull.lever);
+  if (derivative.lever.isZero()) return;
+  const auto there = surface_->weights_of_nodes(face, at + derivative.lever);
   for (std::size_t e = 0; e < 4; ++e) to.on_node[e] += (there[e] - weight[e]) * normal;
 }
 
@@ -433,10 +435,9 @@ void WallImages::weigh_edges(World& world) {
   constexpr Real dry = 0.06, wet = 0.16, enough = 0.015;  // docs/theory_walls.md, METHOD 1
   for_each(world.particles.active, [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
-    const Real thrown_back = edge_sum_[0][k], seen = edge_sum_[1][k];
-    const Real t =
-        std::clamp((seen - dry * thrown_back) / ((wet - dry) * thrown_back + tiny), Real(0), Real(1));
-    edge_loss_[i] = (1 - t * t * (3 - 2 * t)) * std::min(Real(1), spacing_ * thrown_back / enough);
+    const Real reflected = edge_sum_[0][k], seen = edge_sum_[1][k];
+    const Real t = std::clamp((seen - dry * reflected) / ((wet - dry) * reflected + tiny), Real(0), Real(1));
+    edge_loss_[i] = (1 - t * t * (3 - 2 * t)) * std::min(Real(1), spacing_ * reflected / enough);
   });
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What walls of shells do as mirrors of the water beside them.
+// METHOD 1 of *COURANT_WALL_SUPPORT: walls of shells act as mirrors.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -14,25 +14,27 @@
 
 namespace courant {
 
-/// Sums over the images of particles in the walls (`WallPaths`), and what walls hide taken off plain sums;
-/// j represents an image, w for the share of its path:
+/// Sums over the image particles behind walls (see `WallPaths`), less the part of plain pair sums that
+/// walls hide. Here j is an image particle and w the visible share of its path:
 ///   d rho_i/dt += rho_i sum w V_j (v_i - v_j) . grad W_ij,
-///   f_i -= V_i sum w V_j (p_i + p_j) grad W_ij,
-/// the second what belongs to the first, so that energy is kept; and since the path back is the same, forces
-/// along a plane wall cancel between particles. The diffusion of density sees images, too, with the pressure
-/// that is behind the wall at rest. Viscosity does where all walls of a way hold water fast (LAW 2), each
-/// of which turns velocities round about its own, v_j -> 2 w - v_j:
-///   f_i += V_i sum w V_j (mu_i + mu_j)(v_i - v_j) (dW/dr)/r,
-/// and what walls hide of it is taken off. A wall gets, of a way and of the path back half, 2 f_i, with the
-/// sign turned at each further wall: all that particles lose, and what it does to them is its work.
+///   f_i -= V_i sum w V_j (p_i + p_j) grad W_ij.
+/// The force follows from the density rate, so energy is conserved. The path from j to i is the reverse of
+/// the path from i to j, so forces along a plane wall cancel between particles. Density diffusion includes
+/// image particles, with the hydrostatic pressure behind the wall. Viscosity includes them where every
+/// wall on the path is a no-slip wall (LAW 2). Each wall mirrors the velocity about its own, v_j -> 2 w -
+/// v_j:
+///   f_i += V_i sum w V_j (mu_i + mu_j)(v_i - v_j) (dW/dr)/r.
+/// A wall receives 2 f_i per path and its reverse (half from each), with opposite sign for each further
+/// wall. The work of the walls is the work of these forces.
 ///
-/// Where walls move as rigid bodies, v_j is that of the image, which goes along with the wall, and walls get
-/// what particles lose by what each way changes with them (`WallPull`), on the nodes of the face that it goes
-/// through: forces keep momentum and its moment, and what walls do to the water they lose.
+/// Moving walls are rigid bodies. Then v_j is the velocity of the image, which follows the wall. Walls
+/// receive the reaction of each path through its derivatives with respect to their positions
+/// (`WallDerivative`), on the nodes of the face that the path meets. Linear and angular momentum are
+/// conserved.
 ///
-/// Where a wall ends, w changes with the positions of i and j, and belongs to both sums:
-///   d rho_i/dt += rho_i sum V_j W_ij dw/dt,   f_i -= V_i sum V_j (p_i + p_j) W_ij dw/dx_i,
-/// so that density depends on where particles are, not on how they came there, and forces keep their energy.
+/// At the edge of a wall, w depends on the positions of i and j and enters both sums:
+///   d rho_i/dt += rho_i sum V_j W_ij dw/dt,   f_i -= V_i sum V_j (p_i + p_j) W_ij dw/dx_i.
+/// Density then depends on positions alone, not on the history, and the forces conserve energy.
 class WallImages : public Rate, public Refresh, public EnergyTerm, public Restartable {
  public:
   WallImages(const SphSettings& s, World& world, std::shared_ptr<Neighbours> neighbours,
@@ -51,81 +53,81 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   void declare_forces(const World& world, Accesses& a) const;
   void start_forces(const Clock& clock);
   void forces(World& world, Index begin, Index end);
-  /// What the next step leaves out of changes of shares at edges: they belong to water that goes round an
-  /// edge, where a way that walls throw no longer back sees water instead. Where that is missing the surface
-  /// is free.
+  /// Computes the fraction of dw/dx at edges that the next step ignores. The edge terms are for water that
+  /// flows around an edge: a path that the wall no longer reflects reaches water on the other side.
+  /// Without water there, the surface is free.
   void weigh_edges(World& world);
-  /// Gives walls that move what blocks have for them.
+  /// Adds the reactions of all blocks to the nodes of moving walls.
   void give_reactions(World& world) const;
 
  private:
   void look(World& world);
   void search(const World& world);
-  void find_room(const Particles& p, Index i);
-  void find_held_room(const Particles& p, Index i);
+  void find_sub_domain(const Particles& p, Index i);
+  void find_held_sub_domain(const Particles& p, Index i);
   void find_flat(const Particles& p, Index i);
   void find_moving_edge(const Particles& p, Index i);
-  /// What a segment that moves gets, on its nodes [ML/T2].
+  /// Forces on the nodes of a moving segment [ML/T2].
   struct Reaction {
     Index segment;
     std::array<Vec, 4> on_node{Vec::Zero(), Vec::Zero(), Vec::Zero(), Vec::Zero()};
   };
-  /// From where particle i sees what it does, in the middle of the step and, if anybody asks, at its end.
-  struct Outlook {
+  /// Viewpoints of particle i in the middle of the step and, where needed, at its end.
+  struct Viewpoints {
     Index i = -1;
     bool knows_end = false;
-    WallPaths::Standpoint middle, end;
+    WallPaths::Viewpoint middle, end;
   };
-  /// Of a block of particles.
+  /// Work arrays of a block of particles.
   struct Block {
-    std::vector<Outlook> outlooks;  ///< of a group, once any sees ways
-    std::vector<WallPath> paths;    ///< in this step, by particles
-    std::vector<WallPull> pulls;    ///< of paths
-    std::vector<WallPull> now;      ///< of the path at hand
-    WallPaths::Sheets in_middle;    ///< of the particle at hand, where walls are in the middle of the step
+    std::vector<Viewpoints> viewpoints;       ///< of a group of particles, filled on demand
+    std::vector<WallPath> paths;              ///< in this step, by particles
+    std::vector<WallDerivative> derivatives;  ///< of paths
+    std::vector<WallDerivative> now;          ///< of the current path
+    WallPaths::Sheets in_middle;              ///< of the current particle, at the middle of the step
     std::vector<Reaction> reactions;
     Real belt_power = 0;       ///< of moving surfaces on water [ML2/T3]
     std::vector<Index> doubt;  ///< WallMirrorArrays
     std::vector<unsigned char> doubt_lanes;
     Index doubts = 0;
     bool has_moving_edges = false;
-    std::vector<WallEdgePull> edge_pulls;  ///< of its particles
-    std::vector<std::uint32_t> ways;       ///< WallMirrorArrays
+    std::vector<WallEdgeReaction> edge_reactions;  ///< of its particles
+    std::vector<std::uint32_t> edge_paths;         ///< WallMirrorArrays
   };
-  Outlook& outlook(const Particles& p, Index i, Block& block) const;
-  void add_ways(Particles& p, Index i, Index j, Block& block);
-  void add_ways_at_end(const Particles& p, Index j, Outlook& from, std::vector<WallPath>& to,
-                       std::vector<WallPull>* pulls = nullptr) const;
-  void place_sheets(Index i, Block& block);
-  void add_ways_of_moving(Particles& p, Index i, Index j, Block& block);
-  void place_edges_in_middle(Index begin, Index end, Block& block);
-  void place_edges_at_end(Index begin, Index end, const Block& block);
+  Viewpoints& viewpoints(const Particles& p, Index i, Block& block) const;
+  void add_paths(Particles& p, Index i, Index j, Block& block);
+  void add_paths_at_end(const Particles& p, Index j, Viewpoints& from, std::vector<WallPath>& to,
+                        std::vector<WallDerivative>* derivatives = nullptr) const;
+  void update_sheets(Index i, Block& block);
+  void add_paths_of_moving(Particles& p, Index i, Index j, Block& block);
+  void update_edges_in_middle(Index begin, Index end, Block& block);
+  void update_edges_at_end(Index begin, Index end, const Block& block);
   void react_of_edges(const Particles& p, Index begin, Index end, Block& block) const;
   struct Flat;
   bool has_flat_to_itself(const Particles& p, Index i) const;
   void add_flat_rate(Particles& p, Index i) const;
   void add_flat_forces(Particles& p, Index i, Block& block) const;
   void react(const Particles& p, const WallPath& path, const Vec& force, Real per_share, Block& block) const;
-  void give(const WallPull& pull, Real times, Block& block) const;
-  const WallPaths& at_end() const { return any_moves_ ? *paths_from_ : support_->outlooks()->paths(); }
+  void give(const WallDerivative& derivative, Real times, Block& block) const;
+  const WallPaths& at_end() const { return any_moves_ ? *paths_from_ : support_->visibility()->paths(); }
   const WallPaths::Sheets& sheets(Index i) const {
-    return any_moves_ ? sheets_[static_cast<std::size_t>(i)] : support_->outlooks()->of(i).sheets;
+    return any_moves_ ? sheets_[static_cast<std::size_t>(i)] : support_->visibility()->of(i).sheets;
   }
-  /// Whether particle i sees walls that move.
+  /// Whether moving walls are in sight of particle i.
   bool any_moves_among(Index i) const {
     return any_moves_ &&
            std::any_of(sheets(i).begin(), sheets(i).end(), [](const auto& s) { return s.body >= 0; });
   }
   bool sees(Index i) const { return support_->is_near(i) && !sheets(i).empty(); }
-  /// Whether the loops over rooms and edges look at particle i in this step.
-  bool in_room(Index i) const {
+  /// Whether particle i is computed by the loops over sub-domains and edges in this step.
+  bool in_sub_domain(Index i) const {
     const auto k = static_cast<std::size_t>(i);
-    return (rooms_[k] || edges_[k]) && strange_[k] == 0;
+    return (sub_domains_[k] || edges_[k]) && skipped_[k] == 0;
   }
   WallMirrorArrays arrays(Particles& p, Index begin);
   WallMirrorArrays arrays_of_rates(Particles& p, Index begin);
   WallMirrorArrays arrays_of_forces(Particles& p, Index begin);
-  void add_doubtful_ways(Particles& p, Index begin, Block& block);
+  void add_doubtful_paths(Particles& p, Index begin, Block& block);
   const WallSurface& surface() const { return surface_ ? *surface_ : support_->surface(); }
   /// (dW/dr)/r [1/L^(dim+2)]
   Real slope(Real h, const Vec& d) const;
@@ -133,8 +135,8 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   Real kernel(Real h, const Vec& d) const;
   Vec speed(const Particles& p, const WallPath& path) const;
   void drag(Particles& p, const WallPath& path, Block& block) const;
-  void add_rate(Particles& p, const WallPath& path, const std::vector<WallPull>& pulls);
-  /// Of how its share changes, what is not left out.
+  void add_rate(Particles& p, const WallPath& path, const std::vector<WallDerivative>& derivatives);
+  /// Fraction of the change of w that is not ignored (see `weigh_edges`). [-]
   Real kept(const WallPath& path) const;
 
   int dim_;
@@ -147,11 +149,11 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   Field<Real>&pressure_, &force_, &edge_loss_;
   std::array<std::vector<Real>, 2> edge_sum_;  ///< of this step, by particles
   Field<Real>*diffusion_, *potential_ = nullptr;
-  /// Where walls hold water fast; `viscous_` where there is no turbulence.
+  /// With no-slip walls; `viscous_` without turbulence.
   Field<Real>*viscosity_ = nullptr, *heat_ = nullptr, *drag_ = nullptr, *viscous_ = nullptr;
   SupportedWalls walls_;
-  bool mixed_ = false;            ///< walls that hold, rub or slide differently
-  Real width_, spacing_, reach_;  ///< of edges; of pieces of wall that are searched; of anybody's look [L]
+  bool mixed_ = false;            ///< walls differ in their friction law
+  Real width_, spacing_, reach_;  ///< of edge transitions; of wall points; of the search [L]
   bool any_moves_;
   std::optional<WallSurface> surface_;     ///< where walls move: at the last refresh
   std::vector<Index> nodes_;               ///< of walls that move
@@ -162,17 +164,17 @@ class WallImages : public Rate, public Refresh, public EnergyTerm, public Restar
   std::vector<Index> flats_;  ///< a face of the one flat wall that is in sight and moves, since then; else -1
   std::vector<char> before_flat_;  ///< whether the sums of this step are those over its images alone
   const AnyKernel* kernel_;
-  WallMirrorLoop room_rates_, room_forces_, edge_rates_, edge_forces_;
-  std::vector<const WallRoom*> rooms_;  ///< of those that see walls, since then
-  std::vector<std::unique_ptr<WallRoom>> own_rooms_;
-  std::vector<const WallEdge*> edges_;  ///< of those that are beside one and have no closed room
+  WallMirrorLoop sub_domain_rates_, sub_domain_forces_, edge_rates_, edge_forces_;
+  std::vector<const WallSubDomain*> sub_domains_;  ///< of those that see walls, since then
+  std::vector<std::unique_ptr<WallSubDomain>> own_sub_domains_;
+  std::vector<const WallEdge*> edges_;  ///< of those that are beside one and have no closed sub-domain
   std::vector<std::optional<WallEdge>> own_edges_;
   std::vector<std::optional<WallPaths::LoneEdge>> moving_edges_;  ///< where walls move: those that do
-  std::vector<char> strange_;                                     ///< WallMirrorArrays
+  std::vector<char> skipped_;                                     ///< WallMirrorArrays
   std::vector<Block> blocks_;
 };
 
-/// What images do to forces; belongs behind the pair forces.
+/// Forces of image particles; comes after the pair forces.
 std::shared_ptr<Force> make_wall_image_forces(std::shared_ptr<WallImages> images);
 
 }  // namespace courant

@@ -7,51 +7,51 @@ namespace courant::COURANT_SIMD {
 
 namespace {
 
-constexpr Real nowhere = 1e30;  ///< so far off is the wall of a particle that has none [L]
+constexpr Real nowhere = 1e30;  ///< distance of a missing wall [L]
 
-/// Walls of eight particles' rooms.
+/// Walls of the sub-domains of eight particles.
 template <int Dim, int Walls>
-struct EightRooms {
-  static constexpr int most_ends = WallRoom::most_ends;
+struct EightSubDomains {
+  static constexpr int most_ends = WallSubDomain::most_ends;
   Difference<Dim> n[Walls];
-  int ends = 0;                                       ///< the most that any of them has
-  Difference<Dim> out[most_ends], across[most_ends];  ///< of ends, and normals of their walls
-  Pack inside[most_ends], over[most_ends];            ///< of the particles themselves, off edges and walls
-  Pack around2[most_ends];  ///< (what others must be off the end so that no way passes it)^2
+  int ends = 0;                                       ///< greatest number of ends
+  Difference<Dim> out[most_ends], across[most_ends];  ///< directions of ends, and normals of their walls
+  Pack inside[most_ends], over[most_ends];            ///< distances of the particles from ends and walls
+  Pack around2[most_ends];  ///< squared distance from the end beyond which no path passes it
   Pack height[Walls];       ///< of the particles themselves
-  Real without[lanes];      ///< 1: this one has none, or is not looked at
+  Real without[lanes];      ///< 1: no sub-domain, or skipped
 
-  /// `set`: strange ones are found here, else they are known.
-  EightRooms(const WallMirrorArrays& a, Index i, Index count, Real back, bool set) {
+  /// `set`: determines `skipped`; else uses it.
+  EightSubDomains(const WallMirrorArrays& a, Index i, Index count, Real back, bool set) {
     Real normal[Walls][3][lanes], offset[Walls][lanes];
-    const WallRoom* of[lanes];
+    const WallSubDomain* of[lanes];
     for (Index l = 0; l < lanes; ++l) {
-      const WallRoom* room = l < count ? a.room[i + l] : nullptr;
-      if (set && l < count) a.strange[i + l] = 0;
-      if (room && !set && a.strange[i + l] != 0) room = nullptr;
-      if (room && set)
-        for (int k = 0; k < room->walls; ++k) {
-          Real h = -room->offset[k];
+      const WallSubDomain* domain = l < count ? a.domain[i + l] : nullptr;
+      if (set && l < count) a.skipped[i + l] = 0;
+      if (domain && !set && a.skipped[i + l] != 0) domain = nullptr;
+      if (domain && set)
+        for (int k = 0; k < domain->walls; ++k) {
+          Real h = -domain->offset[k];
           for (int c = 0; c < Dim; ++c)
-            h += room->n[k][c] * (a.x[c][i + l] + a.aside[c] - back * a.v[c][i + l]);
-          if (!(h > 0)) a.strange[i + l] = 1;
+            h += domain->n[k][c] * (a.x[c][i + l] + a.aside[c] - back * a.v[c][i + l]);
+          if (!(h > 0)) a.skipped[i + l] = 1;
         }
-      if (room && set)
-        for (int e = 0; e < room->ends; ++e) {
-          Real inside = room->end[e].limit - 0.5 * a.width;
+      if (domain && set)
+        for (int e = 0; e < domain->ends; ++e) {
+          Real inside = domain->end[e].limit - 0.5 * a.width;
           for (int c = 0; c < Dim; ++c)
-            inside -= room->end[e].m[c] * (a.x[c][i + l] + a.aside[c] - back * a.v[c][i + l]);
-          if (!(inside > 0)) a.strange[i + l] = 1;
+            inside -= domain->end[e].m[c] * (a.x[c][i + l] + a.aside[c] - back * a.v[c][i + l]);
+          if (!(inside > 0)) a.skipped[i + l] = 1;
         }
-      if (room && set && a.strange[i + l] != 0) room = nullptr;
-      without[l] = room == nullptr;
-      of[l] = room;
-      if (room && ends < room->ends) ends = room->ends;
+      if (domain && set && a.skipped[i + l] != 0) domain = nullptr;
+      without[l] = domain == nullptr;
+      of[l] = domain;
+      if (domain && ends < domain->ends) ends = domain->ends;
       for (int k = 0; k < Walls; ++k) {
-        const bool has = room && k < room->walls;
-        for (int c = 0; c < 3; ++c) normal[k][c][l] = has ? room->n[k][c] : 0;
-        offset[k][l] = has ? room->offset[k] : -nowhere;
-        for (int c = 0; has && c < Dim; ++c) offset[k][l] -= room->n[k][c] * a.aside[c];
+        const bool has = domain && k < domain->walls;
+        for (int c = 0; c < 3; ++c) normal[k][c][l] = has ? domain->n[k][c] : 0;
+        offset[k][l] = has ? domain->offset[k] : -nowhere;
+        for (int c = 0; has && c < Dim; ++c) offset[k][l] -= domain->n[k][c] * a.aside[c];
       }
     }
     for (int k = 0; k < Walls; ++k) {
@@ -61,11 +61,11 @@ struct EightRooms {
     }
     for (int e = 0; set && e < ends; ++e) take_end(a, e, of);
   }
-  COURANT_INLINE void stand_at(const Places<Dim>& x) {
+  COURANT_INLINE void set_heights(const Positions<Dim>& x) {
     for (int k = 0; k < Walls; ++k) height[k] += along(n[k], x);
   }
-  /// The same for ends, which bend ways that go as far as `reach`.
-  COURANT_INLINE void stand_off_ends(const Places<Dim>& x, Real reach, Real width) {
+  /// The same for ends, with the range `reach`.
+  COURANT_INLINE void set_ends(const Positions<Dim>& x, Real reach, Real width) {
     for (int e = 0; e < ends; ++e) {
       inside[e] -= along(out[e], x), over[e] += along(across[e], x);
       const Pack to_edge = inside[e] + 0.5 * width, off2 = to_edge * to_edge + over[e] * over[e];
@@ -73,7 +73,7 @@ struct EightRooms {
       around2[e] = left * left;
     }
   }
-  /// > 0 for pairs none of whose ways passes an end.
+  /// > 0 for pairs without a path past an end.
   COURANT_INLINE Pack clear_of_ends(const Difference<Dim>& d, Real width) const {
     Pack least = Pack::of(1);
     for (int e = 0; e < ends; ++e) {
@@ -85,15 +85,15 @@ struct EightRooms {
   }
 
  private:
-  COURANT_INLINE static Pack along(const Difference<Dim>& n, const Places<Dim>& x) {
+  COURANT_INLINE static Pack along(const Difference<Dim>& n, const Positions<Dim>& x) {
     const Pack two = n.x * x.x + n.y * x.y;
     if constexpr (Dim == 3) return two + n.z * x.z;
     return two;
   }
-  void take_end(const WallMirrorArrays& a, int e, const WallRoom* const (&of)[lanes]) {
+  void take_end(const WallMirrorArrays& a, int e, const WallSubDomain* const (&of)[lanes]) {
     Real m[3][lanes], normal[3][lanes], limit[lanes], offset[lanes];
     for (Index l = 0; l < lanes; ++l) {
-      const WallRoom::End* end = of[l] && e < of[l]->ends ? &of[l]->end[e] : nullptr;
+      const WallSubDomain::End* end = of[l] && e < of[l]->ends ? &of[l]->end[e] : nullptr;
       limit[l] = end ? end->limit - 0.5 * a.width : nowhere, offset[l] = end ? end->offset : -nowhere;
       for (int c = 0; c < 3; ++c) {
         m[c][l] = end ? end->m[c] : 0, normal[c][l] = end ? end->n[c] : 0;
@@ -107,7 +107,7 @@ struct EightRooms {
   }
 };
 
-/// Calls f(S, shape) for each set S of walls, a number of bits, behind which j is within reach.
+/// Calls f(S, shape) for each set S of walls (bits) with an image of j in range.
 template <int Walls, class Kernel, class F>
 COURANT_INLINE void for_each_image(const Kernel& kernel, const Pack& r2, const Pack (&farther)[Walls],
                                    const Pack& reach2, Real hinv, const F& f) {
@@ -128,7 +128,8 @@ COURANT_INLINE Pack least(const Pack (&of)[Walls]) {
   return out;
 }
 
-/// Notes entry k for those of eight particles that have j within reach where not all is clear; 1 for others.
+/// Records list entry k for lanes with j in range and `clear` not positive; returns 0 for these, 1 for
+/// others.
 inline Pack find_doubts(const WallMirrorArrays& a, Index k, const Pack& r2, const Pack& reach2,
                         const Pack& clear, const Real (&without)[lanes], Index count) {
   Real distance2[lanes], reach[lanes], good[lanes], keep[lanes];
@@ -145,7 +146,7 @@ inline Pack find_doubts(const WallMirrorArrays& a, Index k, const Pack& r2, cons
   }
   return Pack::load(keep);
 }
-/// 0 for those that the rates doubted, the next of which is `at`; 1 for others.
+/// 0 for lanes recorded by the rates, the next of which is `at`; 1 for others.
 inline Pack known_doubts(const WallMirrorArrays& a, Index k, Index& at) {
   Real keep[lanes];
   const bool any = at < *a.doubts && a.doubt[at] == k;
@@ -159,17 +160,17 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
                  Index i, Index count) {
   const Real half = a.half_step, hinv = 1 / a.h;
   const Pack reach2 = Pack::of(power<2>(kernel.support * a.h)), tiny = Pack::of(tiny_distance2 * a.h * a.h);
-  EightRooms<Dim, Walls> rooms(a, i, count, half, true);
-  Places<Dim> xi(a.x, i, count);
-  const Places<Dim> vi(a.v, i, count);
+  EightSubDomains<Dim, Walls> domains(a, i, count, half, true);
+  Positions<Dim> xi(a.x, i, count);
+  const Positions<Dim> vi(a.v, i, count);
   xi.x -= half * vi.x, xi.y -= half * vi.y;
   if constexpr (Dim == 3) xi.z -= half * vi.z;
-  rooms.stand_at(xi);
-  rooms.stand_off_ends(xi, kernel.support * a.h, a.width);
+  domains.set_heights(xi);
+  domains.set_ends(xi, kernel.support * a.h, a.width);
   Pack speed[Walls];  // along the normals
   for (int k = 0; k < Walls; ++k) {
-    speed[k] = rooms.n[k].x * vi.x + rooms.n[k].y * vi.y;
-    if constexpr (Dim == 3) speed[k] += rooms.n[k].z * vi.z;
+    speed[k] = domains.n[k].x * vi.x + domains.n[k].y * vi.y;
+    if constexpr (Dim == 3) speed[k] += domains.n[k].z * vi.z;
   }
   Pack div = Pack::zero();
   for (Index entry = lists.start[g]; entry < lists.start[g + 1]; ++entry) {
@@ -180,17 +181,17 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
     const Pack r2 = dot_plus(d, d, tiny);
     Pack there[Walls], farther[Walls];
     for (int k = 0; k < Walls; ++k) {
-      there[k] = rooms.height[k] - dot(rooms.n[k], d);
-      farther[k] = 4 * rooms.height[k] * positive(there[k]);  // particles behind have no image
+      there[k] = domains.height[k] - dot(domains.n[k], d);
+      farther[k] = 4 * domains.height[k] * positive(there[k]);  // particles behind have no image
     }
     Pack volume = Pack::of(a.V[j]), clear = least<Walls>(there);
-    if (rooms.ends > 0) clear = min(clear, rooms.clear_of_ends(d, a.width));
+    if (domains.ends > 0) clear = min(clear, domains.clear_of_ends(d, a.width));
     if (any_less(clear, Pack::of(1e-300)))
-      volume = volume * find_doubts(a, entry, r2, reach2, clear, rooms.without, count);
+      volume = volume * find_doubts(a, entry, r2, reach2, clear, domains.without, count);
     if (!any_less(r2 + least<Walls>(farther), reach2)) continue;
     Pack more[Walls];
     for (int k = 0; k < Walls; ++k)
-      more[k] = 2 * (speed[k] * there[k] + (speed[k] - dot(rooms.n[k], u)) * rooms.height[k]);
+      more[k] = 2 * (speed[k] * there[k] + (speed[k] - dot(domains.n[k], u)) * domains.height[k]);
     const Pack u_dot_d = dot(u, d);
     Pack change = Pack::zero();
     for_each_image<Walls>(kernel, r2, farther, reach2, hinv, [&](int S, const Pack& shape) {
@@ -204,7 +205,7 @@ void group_rates(const Kernel& kernel, const WallMirrorArrays& a, const Neighbou
   Real rate[lanes];
   (gradient_norm<Dim>(kernel, a.h) * div).store(rate);
   for (Index l = 0; l < count; ++l)
-    if (rooms.without[l] == 0) a.drhodt[i + l] += a.rho[i + l] * rate[l];
+    if (domains.without[l] == 0) a.drhodt[i + l] += a.rho[i + l] * rate[l];
 }
 
 template <class Kernel, int Dim, int Walls>
@@ -212,9 +213,9 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
                   Index i, Index count, Index& next_doubt) {
   const Real hinv = 1 / a.h;
   const Pack reach2 = Pack::of(power<2>(kernel.support * a.h)), tiny = Pack::of(tiny_distance2 * a.h * a.h);
-  EightRooms<Dim, Walls> rooms(a, i, count, 0, false);
-  const Places<Dim> xi(a.x, i, count);
-  rooms.stand_at(xi);
+  EightSubDomains<Dim, Walls> domains(a, i, count, 0, false);
+  const Positions<Dim> xi(a.x, i, count);
+  domains.set_heights(xi);
   const bool diffuses = a.diffusion != nullptr;
   const Pack pi = Pack::load(a.p + i, count), rho = Pack::load(a.rho + i, count),
              phi = diffuses ? Pack::load(a.potential + i, count) : Pack::zero();
@@ -230,8 +231,8 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
     const Pack r2 = dot_plus(d, d, tiny);
     Pack there[Walls], farther[Walls];
     for (int k = 0; k < Walls; ++k) {
-      there[k] = rooms.height[k] - dot(rooms.n[k], d);
-      farther[k] = 4 * rooms.height[k] * positive(there[k]);  // particles behind have no image
+      there[k] = domains.height[k] - dot(domains.n[k], d);
+      farther[k] = 4 * domains.height[k] * positive(there[k]);  // particles behind have no image
     }
     if (!any_less(r2 + least<Walls>(farther), reach2)) continue;
     Pack all = Pack::zero(), by[Walls];
@@ -246,19 +247,19 @@ void group_forces(const Kernel& kernel, const WallMirrorArrays& a, const Neighbo
     for (int k = 0; k < Walls; ++k) across[k] += 2 * pressure * there[k] * by[k];
     if (diffuses) diffusion += volume * all * (a.p[j] - pi + rho * (a.potential[j] - phi));
   }
-  for (int k = 0; k < Walls; ++k) force.add(across[k], rooms.n[k]);
+  for (int k = 0; k < Walls; ++k) force.add(across[k], domains.n[k]);
   const Pack factor = (0 - gradient_norm<Dim>(kernel, a.h)) * Pack::load(a.V + i, count);
   Real of[4][lanes];
   (factor * force.x).store(of[0]), (factor * force.y).store(of[1]), (factor * force.z).store(of[2]);
   (-2 * a.delta * a.h * gradient_norm<Dim>(kernel, a.h) * diffusion).store(of[3]);
   for (Index l = 0; l < count; ++l) {
-    if (rooms.without[l] != 0) continue;
+    if (domains.without[l] != 0) continue;
     for (int c = 0; c < Dim; ++c) a.f[c][i + l] += of[c][l], a.wall_force[c][i + l] = of[c][l];
     if (diffuses) a.diffusion[i + l] += of[3][l] / a.c[i + l];
   }
 }
 
-/// Calls the loop for as many walls as any of a group of eight has.
+/// Calls the loop for the greatest number of walls in each group of eight.
 template <class Kernel, int Dim, bool Rates>
 void loop(const WallMirrorArrays& a, const NeighbourLists& lists) {
   const Kernel kernel = kernel_of<Kernel>(a.kernel);
@@ -268,7 +269,8 @@ void loop(const WallMirrorArrays& a, const NeighbourLists& lists) {
     const Index count = lists.end - i < lanes ? lists.end - i : lanes;
     int walls = 0;
     for (Index l = 0; l < count; ++l)
-      if (const WallRoom* room = a.room[i + l]) walls = walls < room->walls ? room->walls : walls;
+      if (const WallSubDomain* domain = a.domain[i + l])
+        walls = walls < domain->walls ? domain->walls : walls;
     if (walls == 0) continue;
     if constexpr (Rates) {
       if (walls == 1) group_rates<Kernel, Dim, 1>(kernel, a, lists, g, i, count);

@@ -1,15 +1,15 @@
 #pragma once
-// Sums over the images of particles in sub-domains (see WallRoom); compiled once for each instruction set, as
-// pair_loops.hpp.
+// Sums over the images of particles in sub-domains (see WallSubDomain); compiled once for each instruction
+// set, as pair_loops.hpp.
 #include <cstdint>
 
 #include "sph/core/neighbour_lists.hpp"
 #include "sph/kernel/kernel_choice.hpp"
-#include "sph/walls/images/wall_room.hpp"
+#include "sph/walls/images/wall_sub_domain.hpp"
 
 namespace courant {
 
-/// What these loops read and write; arrays over all particles, null where a scene lacks them.
+/// Input and output of these loops: arrays over all particles; null if the scene lacks them.
 struct WallMirrorArrays {
   const Real* x[3];
   const Real* v[3];
@@ -18,36 +18,35 @@ struct WallMirrorArrays {
   const Real* p;  ///< pressure, plus bulk viscosity where there is any
   Real* drhodt;
   Real* f[3];
-  Real* wall_force[3];  ///< set: what `f` gets
+  Real* wall_force[3];  ///< set: the contribution to `f`
   const Real* c;
   const Real* potential;  ///< -g.x [L2/T2]
   Real* diffusion;        ///< rate of rho by diffusion [M/L3T]; null: none
   Real h, delta;
   Real half_step;         ///< rates are those of positions half a step ago [T]
-  Real aside[3];          ///< so far aside of their positions particles are looked at [L]
+  Real aside[3];          ///< offset of positions for visibility tests (see WallPaths) [L]
   Real width;             ///< of edges [L]
   const Real* edge_loss;  ///< sph_fields::edge_loss
-  /// Of each particle beside an edge, added: sums of V W and the slope of the share over ways that walls
-  /// throw back, and over straight ones to the other side of a wall's plane [1/L]
+  /// Sums for each particle beside an edge: V W |dw/dx| over reflected paths, and over straight paths to
+  /// the other side of the plane of a wall [1/L].
   Real* edge_sum[2];
-  const WallRoom* const* room;  ///< of each particle; null: none
-  const WallEdge* const* edge;  ///< the same, of those that have no space
-  /// Of each particle of the lists that is beside an edge that moves; null: none does.
-  WallEdgePull* pull;
-  /// Of each entry of the lists, four bits for each of eight i beside such an edge: whether a way passes the
-  /// edge near by in the middle of the step, where forces look at all ways at its end; if not, which ways
-  /// there are, by the first wall, by the second one, and one that is hidden. Rates set them, forces read
-  /// them.
-  std::uint32_t* ways;
-  /// Of each particle: 1 where it is not in its sub-domain or beside its edge, so that nothing is added here.
-  /// Rates set it, forces read it.
-  char* strange;
-  /// Pairs that may see each other by other ways than those of the sub-domain, of which nothing is added
-  /// here: entries of the lists, ascending, and by bits which of the eight i. Rates set them, forces read
-  /// them; there is space for all entries.
+  const WallSubDomain* const* domain;  ///< of each particle; null: none
+  const WallEdge* const* edge;         ///< of particles without a sub-domain; null: none
+  /// For each listed particle beside a moving edge; null if no edge moves.
+  WallEdgeReaction* reaction;
+  /// Four bits for each of eight particles i, for each list entry: bit 0: a path passes near the edge in
+  /// the middle of the step, so forces evaluate all paths at the end of the step; else bits 1 to 3: a path
+  /// by the first wall, by the second wall, a hidden straight path. Set by rates, read by forces.
+  std::uint32_t* edge_paths;
+  /// 1 for a particle that is not in front of all walls of its sub-domain or edge: these loops skip it.
+  /// Set by rates, read by forces.
+  char* skipped;
+  /// List entries of pairs with possible paths other than those of the sub-domain, ascending, and the
+  /// lanes concerned: skipped here and computed by path. Set by rates, read by forces; sized for all
+  /// entries.
   Index* doubt;
   unsigned char* doubt_lanes;
-  Index* doubts;            ///< how many
+  Index* doubts;            ///< number of these
   const AnyKernel* kernel;  ///< that of the run
 };
 

@@ -11,12 +11,11 @@ namespace courant {
 namespace {
 
 constexpr Real level = 1 - 1e-6;  ///< cosine of the angle between normals of faces in one plane
-constexpr Real bent = 0.87;       ///< cosine of the turn up to which one face goes on in the next
+constexpr Real bent = 0.87;       ///< cosine of the angle up to which one face continues in the next
 
-/// No way goes exactly through an edge, or between particles and faces that are on one lattice, when all
-/// particles are looked at a little aside of their positions, which does not matter otherwise; at the other
-/// end of its path, a particle that sees itself elsewhere again: in a corner that way always goes through the
-/// edge. [L]
+/// Visibility tests use slightly offset positions, so that no path passes exactly through an edge or
+/// between particles and faces of one lattice. A particle and its own images use a further offset at the
+/// far end: in a corner that path always passes through the edge. [L]
 Vec aside(Real reach, int dim, bool again) {
   return 1e-5 * reach *
          (again ? Vec(-0.2, 0.5303, dim == 2 ? 0 : 0.7071) : Vec(0.6180, 0.4142, dim == 2 ? 0 : 0.2679));
@@ -55,7 +54,7 @@ WallPaths::WallPaths(const WallPaths& other)
   if (!moved_.empty()) faces_ = moved_.data();
 }
 
-/// Other faces that go on from the middle of an edge decide: in the plane or slightly bent, it is no edge.
+/// An edge is none if another face continues from its middle in the plane or slightly bent.
 WallPaths::Edge WallPaths::edge_of(Index face, int edge) const {
   const auto& f = surface_.face(face);
   const Real near = touching * surface_.reach();
@@ -67,18 +66,18 @@ WallPaths::Edge WallPaths::edge_of(Index face, int edge) const {
     bool inside = true;
     for (int e = 0; e < g.corners; ++e) inside &= g.inward[e].dot(m - g.x[e]) > -near;
     if (!inside) continue;
-    // where the other face lies, seen from the edge: both ways across it, as far as it goes
+    // directions from the edge in which the other face extends
     Vec across = g.n.cross(b - a);
     if (!(across.norm() > 0)) continue;
     across.normalize();
-    for (const Real way : {-1.0, 1.0}) {
-      const Vec t = way * across, p = m + 10 * near * t;
+    for (const Real sign : {-1.0, 1.0}) {
+      const Vec t = sign * across, p = m + 10 * near * t;
       bool goes_on = true;
       for (int e = 0; e < g.corners; ++e) goes_on &= g.inward[e].dot(p - g.x[e]) > -near;
       if (!goes_on) continue;
       if (t.dot(outward) > bent) return {};
       if (std::abs(f.n.dot(t)) > touching)
-        out.corners.push_back({g.n, -g.n.dot(outward), f.n.dot(t), other, way});
+        out.corners.push_back({g.n, -g.n.dot(outward), f.n.dot(t), other, sign});
     }
   }
   return out;
@@ -92,7 +91,7 @@ bool WallPaths::is_free(Index face, int edge, const Vec& p) const {
                       [&](const Corner& c) { return f.n.dot(d) * c.there > 0 && c.n.dot(d) * c.here > 0; });
 }
 
-/// Whether a face lies in the plane of a sheet, but for how decks round places.
+/// Whether a face lies in the plane of a sheet, within the rounding of decks.
 bool WallPaths::goes_on_in(const Sheet& sheet, Index face) const {
   const auto& f = this->face(face);
   if (f.body != sheet.body || std::abs(f.n.dot(sheet.n)) < level) return false;
@@ -105,7 +104,7 @@ WallPaths::Sheets WallPaths::seen_from(const Vec& x) const {
   const WallSurface::View view = surface_.view_from(x);
   if (view.nothing) return out;
   const std::vector<Index> around = surface_.faces_around(x);
-  // exactly, or a pair of particles would not look alike from both
+  // exact, so that both particles of a pair give the same result
   const auto ends = [&](Index f) {
     return face(f).body >= 0 ||
            std::any_of(edges_[f].begin(), edges_[f].end(), [](const Edge& e) { return e.ends; });
@@ -143,20 +142,21 @@ WallPaths::Sheets WallPaths::sheets_of(const std::vector<Index>& faces) const {
   return out;
 }
 
-/// Edges that go on straight beside the same other faces are one.
+/// Collinear edges with the same adjacent faces become one border.
 void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   const auto& f = this->face(face);
-  Brink out{.face = face, .edge = edge, .last_face = face, .last_edge = edge};
+  Border out{.face = face, .edge = edge, .last_face = face, .last_edge = edge};
   out.from = f.x[edge], out.to = f.x[(edge + 1) % f.corners];
   const Real near = 1e-6 * surface_.reach();
   const auto alike = [&](const Corner& a, const Corner& b) {
     return (a.n - b.n).norm() < 1e-9 && std::abs(a.here - b.here) < 1e-9 &&
            std::abs(a.there - b.there) < 1e-9;
   };
-  const auto goes_on = [&](const Brink& known) {
+  const auto goes_on = [&](const Border& known) {
     const auto &these = edges_[known.face][known.edge].corners, &others = edges_[face][edge].corners;
     const Vec along = known.to - known.from;
-    if (sheet.body >= 0 && this->face(known.face).side != f.side) return false;  // its image goes its own way
+    if (sheet.body >= 0 && this->face(known.face).side != f.side)
+      return false;  // its image moves differently
     return (this->face(known.face).inward[known.edge] - f.inward[edge]).norm() < 1e-9 &&
            along.cross(out.to - known.from).norm() < near * along.norm() && these.size() == others.size() &&
            std::equal(these.begin(), these.end(), others.begin(), alike);
@@ -164,7 +164,7 @@ void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   for (bool more = true; more;) {
     more = false;
     for (std::size_t k = 0; k < sheet.edges.size(); ++k) {
-      const Brink& known = sheet.edges[k];
+      const Border& known = sheet.edges[k];
       if (!goes_on(known)) continue;
       if ((known.to - out.from).norm() < near)
         out.from = known.from, out.face = known.face, out.edge = known.edge;
@@ -180,15 +180,15 @@ void WallPaths::add_edge(Sheet& sheet, Index face, int edge) const {
   sheet.edges.push_back(out);
 }
 
-/// Where an edge of a wall that moves is now.
-WallPaths::Brink WallPaths::now(const Brink& edge) const {
+/// Current position of a border of a moving wall.
+WallPaths::Border WallPaths::now(const Border& edge) const {
   const auto &first = face(edge.face), &last = face(edge.last_face);
-  Brink out = edge;
+  Border out = edge;
   out.from = first.x[edge.edge], out.to = last.x[(edge.last_edge + 1) % last.corners];
   return out;
 }
 
-/// What no path by several of the sheets can do, however they move as one.
+/// Finds successions of sheets that no path can have while they move as one body.
 void WallPaths::compare(Sheets& sheets) const {
   const auto for_each_corner = [&](const Sheet& s, const auto& f) {
     for (const Index face : s.faces)

@@ -1,5 +1,5 @@
 #pragma once
-// The ways on which particles see each other beside walls: straight, hidden, or reflected.
+// Paths between particles beside walls: straight, hidden or reflected.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -8,63 +8,64 @@
 #include <utility>
 #include <vector>
 
-#include "sph/walls/images/wall_room.hpp"
+#include "sph/walls/images/wall_sub_domain.hpp"
 #include "sph/walls/wall_surface.hpp"
 
 namespace courant {
 
-/// How particle j acts on particle i because of walls.
+/// A path from particle j to particle i that walls change.
 struct WallPath {
   Index i = 0, j = 0;
-  /// Share of the way that walls throw back; of a straight path, less than 0: what they hide of it. [-]
+  /// Reflected share of a reflected path; of a straight path, minus its hidden share. [-]
   Real weight = 0;
   Vec d = Vec::Zero();               ///< x_i less the position of the image of j [L]
-  Matrix turn = Matrix::Identity();  ///< of directions at j, as they are at the image
+  Matrix turn = Matrix::Identity();  ///< maps directions at j to directions at the image
   Vec by_i = Vec::Zero(),
-      by_j = Vec::Zero();   ///< how the share goes over with the positions of i and j [1/L]
-  Vec drift = Vec::Zero();  ///< velocity of the image where j rests [L/T]
-  std::array<signed char, 4> by{-1, -1, -1, -1};  ///< the sheets that throw it back, in turn
-  bool moves = false;                             ///< any of them does
+      by_j = Vec::Zero();   ///< derivatives of the share with respect to the positions of i and j [1/L]
+  Vec drift = Vec::Zero();  ///< velocity of the image if j is at rest [L/T]
+  std::array<signed char, 4> by{-1, -1, -1, -1};  ///< the reflecting sheets, in order
+  bool moves = false;                             ///< any of them moves
   bool across = false;  ///< of a straight path: its ends are on different sides of the plane of a wall
-  Index pulls = 0, pulls_end = 0;  ///< how the share goes over with the positions of walls
+  Index derivatives = 0, derivatives_end = 0;  ///< range of derivatives with respect to walls
 };
 
-/// How something changes with the position of a rigid piece of wall: by `force` times the path of what moves
-/// with it at `at`, and along the normal of the face by the difference of the ways at `at + lever` and `at`.
-/// With the sign turned, the force on it that belongs to an energy. [X/L], `lever` times that
-struct WallPull {
+/// Derivative of a quantity with respect to the position of a rigid piece of wall: `force` times the
+/// displacement of the wall at `at`, plus the difference of normal displacements at `at + lever` and `at`.
+/// With opposite sign it is the force of an energy on the wall. [X/L], `lever` times that
+struct WallDerivative {
   Index face = 0;
   Vec at = Vec::Zero(), force = Vec::Zero(), lever = Vec::Zero();
 };
 
-/// A sub-domain for who does not see these edges, where something ends in front of its walls.
-struct OpenRoom {
-  WallRoom room;                          ///< without ends
-  WallRoom open;                          ///< with these
-  bool known = true;                      ///< `open` has them all
+/// A sub-domain whose walls may end within sight.
+struct OpenSubDomain {
+  WallSubDomain closed;                   ///< without ends
+  WallSubDomain open;                     ///< with ends
+  bool known = true;                      ///< `open` has all ends
   std::vector<std::pair<Vec, Vec>> ends;  ///< edges
-  /// Whether x is in front of all walls, and `within` off where they end.
+  /// Whether x is in front of all walls and farther than `within` from their ends.
   bool holds_open(const Vec& x, Real within) const;
-  /// Whether x is in front of all walls, and farther than `sight` from any of the edges.
+  /// Whether x is in front of all walls and farther than `sight` from all edges.
   bool holds(const Vec& x, Real sight) const;
 };
 
-/// Walls act as mirrors do, each piece as far as it goes: i meets the image of j in a wall where the straight
-/// way from i to the image goes through that wall, and so does j, since the path back is the same. Images of
-/// images fill corners, again where the path, reflected by one wall after the other, meets each of them.
-/// Particles that a wall is between do not meet. So whatever direction i looks in, it sees water just as
-/// far as its kernel reaches, at any number of walls, at their ends and on both sides of them.
+/// Walls are mirrors of finite extent. Particle i interacts with the image of j behind a wall if the
+/// straight line from i to the image crosses that wall; the reverse path of j does, too. Images of images
+/// fill corners if the path meets each wall in order. Particles on different sides of a wall do not
+/// interact. In every direction, particle i thus has water as far as its kernel reaches, for any number of
+/// walls, at their ends and on both sides.
 ///
-/// Where a wall ends, and where the next one turns away from the water, a way that passes the edge goes over
-/// from reflected (or hidden) to nothing within one width, half of it on each side, smoothly: else
-/// particles would come and go at once. What the wall no longer throws back is what it no longer hides.
+/// Where a wall ends, or the next wall turns away from the water, the share of a path that passes the edge
+/// changes smoothly from one to zero over a width, half of it on each side: otherwise particles would
+/// appear and vanish in one step. The share that a wall no longer reflects is the share that it no longer
+/// hides.
 ///
-/// Walls may move as rigid bodies: `take_along` states where they are, and `place` brings sheets there. How a
-/// way changes with positions then holds for those of walls, too (`WallPull`), such that nothing changes
-/// where all goes along alike: forces by it keep momentum and its moment.
+/// Walls may move as rigid bodies: `take_along` sets their current position and `update` that of sheets.
+/// The derivatives with respect to wall positions (`WallDerivative`) vanish for a common rigid motion of
+/// all, so the forces conserve linear and angular momentum.
 class WallPaths {
  public:
-  /// Along the axes.
+  /// Axis-aligned box.
   struct Box {
     Vec low, high;
     bool meets(const Box& other) const {
@@ -72,27 +73,27 @@ class WallPaths {
              low[0] <= other.high[0] && low[1] <= other.high[1] && low[2] <= other.high[2];
     }
   };
-  /// An edge of a sheet, of one face or of several side by side.
-  struct Brink {
+  /// A border of a sheet: an edge of one face, or of several in a line.
+  struct Border {
     Index face = 0;
     int edge = 0;
-    Index last_face = 0;  ///< where there are several, that of `to`
+    Index last_face = 0;  ///< of several: the face at `to`
     int last_edge = 0;
     Vec from = Vec::Zero(), to = Vec::Zero();
     bool is_within(const Box& b) const { return b.meets({from.cwiseMin(to), from.cwiseMax(to)}); }
   };
-  /// A flat piece of wall as it is seen; `endless`: nothing else, and none of its edges.
+  /// A flat piece of wall. `endless`: the only one in sight, without borders.
   struct Sheet {
     Vec n = Vec::Zero();
     Real offset = 0;
     Index plane = 0;
     bool endless = false;
-    Index face = 0;   ///< one of them
-    Index body = -1;  ///< which they all follow; -1: they are held
+    Index face = 0;   ///< one of its faces
+    Index body = -1;  ///< the body that they follow; -1: fixed
     std::vector<Index> faces;
-    std::vector<Brink> edges;  ///< of these faces, where nothing goes on in the plane
-    /// Of the sheets of the same body those, by number, all of whose faces lie on its negative, or positive,
-    /// side: no way that comes from the other one goes there next.
+    std::vector<Border> edges;  ///< free borders of these faces in the plane
+    /// Bits of sheets of the same body with all faces on the negative (or positive) side of this one: a
+    /// path from the other side cannot meet them next.
     std::uint64_t under = 0, over = 0;
     Vec middle = Vec::Zero();  ///< of its faces when they were looked for, of which none is farther than
     Real half = std::numeric_limits<Real>::infinity();  ///< this [L]
@@ -100,11 +101,11 @@ class WallPaths {
     Real height(const Vec& x) const { return n.dot(x) - offset; }
     Vec image(const Vec& x) const { return x - 2 * height(x) * n; }
     Matrix turn() const { return Matrix::Identity() - 2 * n * n.transpose(); }
-    /// `from`: the height of where ways come from.
+    /// `from`: height of the start of the path over the sheet [L].
     bool turns_away(std::size_t other, Real from) const {
       return other < 64 && (((from > 0 ? under : over) >> other) & 1) != 0;
     }
-    /// What a path from x to it is no shorter than; from it to another one. [L]
+    /// Lower bound of the length of a path from x to the sheet; from the sheet to another one. [L]
     Real off(const Vec& x) const {
       return std::max(std::abs(height(x)), (low - x).cwiseMax(x - high).cwiseMax(0).norm());
     }
@@ -116,97 +117,97 @@ class WallPaths {
     bool is_within(const Box& b) const { return b.meets({low, high}); }
   };
   using Sheets = std::vector<Sheet>;
-  /// Over which a free edge goes over to nothing, of the spacing of particles; by trial at steps and blocks.
+  /// Width of edge transitions over particle spacing; chosen by trials at steps and blocks.
   static constexpr Real usual_width = 1.2;
 
-  /// `width`: about one spacing of the particles; the surface must reach that much farther than the kernel
-  /// [L]
+  /// `width`: about one particle spacing; the surface must reach farther than the kernel by this [L].
   WallPaths(const WallSurface& surface, int dim, Real width);
   WallPaths(const WallPaths& other);
   WallPaths& operator=(const WallPaths&) = delete;
   ~WallPaths() = default;
 
-  /// How far x is from the path from a to b.
+  /// Distance of x from the segment from a to b. [L]
   static Real distance_to(const Vec& x, const Vec& a, const Vec& b);
-  /// What may throw back ways from about x.
+  /// Sheets that may reflect paths from x.
   Sheets seen_from(const Vec& x) const;
-  /// All that is within a distance of x [L], each with its faces and edges.
+  /// Sheets within a distance of x [L], with faces and borders.
   Sheets sheets_around(const Vec& x, Real within) const;
-  /// The rooms that places may be in that are no farther than `half` from the centre, as far as `reach`
-  /// from them, of the sheets that stand that far around. [L]
-  std::vector<OpenRoom> rooms_about(const Sheets& sheets, const Vec& centre, Real half, Real reach) const;
-  /// Of these, the sub-domain whose walls end nowhere in sight, or the one whose walls do, but not within
-  /// half of the width of x; null: none.
-  std::unique_ptr<WallRoom> closed_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  std::unique_ptr<WallRoom> open_room_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  /// The edge that is all that is within `sight` and half of the width about x; none: there is more. [L]
+  /// Sub-domains of positions no farther than `half` from the centre, with the range `reach`, from the
+  /// sheets in that range. [L]
+  std::vector<OpenSubDomain> sub_domains_about(const Sheets& sheets, const Vec& centre, Real half,
+                                               Real reach) const;
+  /// The sub-domain of x without ends in sight, or with ends, but not within half of the width of x; null:
+  /// none.
+  std::unique_ptr<WallSubDomain> closed_sub_domain_about(const Sheets& sheets, const Vec& x,
+                                                         Real sight) const;
+  std::unique_ptr<WallSubDomain> open_sub_domain_about(const Sheets& sheets, const Vec& x, Real sight) const;
+  /// The edge, if it is all within `sight` and half of the width of x. [L]
   std::optional<WallEdge> edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  /// An edge of a body that moves, by numbers of its sheets, and of their edges.
+  /// An isolated edge of a moving body, by indices of its sheets and borders.
   struct LoneEdge {
     int walls = 0;
     std::array<std::size_t, 2> sheet{}, edge{};
-    std::array<Real, 2>
-        side{};  ///< -1: the normal away from the other wall is that of the sheet turned round
+    std::array<Real, 2> side{};  ///< -1: the normal away from the other wall is opposite to that of the sheet
   };
-  /// The same of a body that moves, and where such an edge is and how it goes now.
+  /// The same for a moving body, and its current position and velocity.
   std::optional<LoneEdge> moving_edge_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  WallEdge placed(const LoneEdge& edge, const Sheets& sheets) const;
-  /// A face of the sheet that is all that is within `sight` and half of the width about x, without an
-  /// edge there, if it moves; else -1. [L]
+  WallEdge current(const LoneEdge& edge, const Sheets& sheets) const;
+  /// A face of the moving sheet, if that is all within `sight` and half of the width of x, without
+  /// borders; else -1. [L]
   Index moving_flat_about(const Sheets& sheets, const Vec& x, Real sight) const;
-  /// Sheets by their numbers, one bit each; those behind the first 63 have the last one.
-  using Some = std::uint64_t;
-  static Some bit(std::size_t k) { return Some(1) << std::min<std::size_t>(k, 63); }
-  static bool has(Some some, std::size_t k) { return (some & bit(k)) != 0; }
-  class Standpoint;
-  /// Looks from x, as far as the kernel reaches, at sheets, which must stay where they are while the
-  /// result is in use [L].
-  void stand(const Sheets& sheets, const Vec& x, Real reach, Standpoint& to) const;
-  /// Appends the paths from particle i, that is there, to j at y, that walls change.
-  void add(Standpoint& from, Index i, Index j, const Vec& y, std::vector<WallPath>& to,
-           std::vector<WallPull>* pulls = nullptr) const;
+  /// Set of sheets, one bit each; sheets from index 63 share the last bit.
+  using SheetSet = std::uint64_t;
+  static SheetSet bit(std::size_t k) { return SheetSet(1) << std::min<std::size_t>(k, 63); }
+  static bool has(SheetSet set, std::size_t k) { return (set & bit(k)) != 0; }
+  class Viewpoint;
+  /// Prepares the search for paths from x within `reach` [L]. The sheets must not change while the result
+  /// is in use.
+  void look_from(const Sheets& sheets, const Vec& x, Real reach, Viewpoint& to) const;
+  /// Appends the paths from particle i at the viewpoint to j at y that walls change.
+  void add(Viewpoint& from, Index i, Index j, const Vec& y, std::vector<WallPath>& to,
+           std::vector<WallDerivative>* derivatives = nullptr) const;
   /// The same for one pair.
   void add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
-           std::vector<WallPath>& to, std::vector<WallPull>* pulls = nullptr) const;
+           std::vector<WallPath>& to, std::vector<WallDerivative>* derivatives = nullptr) const;
 
-  /// Where walls that move were `back` ago, by their velocity over the last step. [T]
+  /// Sets moving walls to their position `back` ago, by their velocity over the last step. [T]
   void take_along(const World& world, Real back);
-  void place(Sheets& sheets) const;
+  void update(Sheets& sheets) const;
   bool any_moves() const { return any_moves_; }
-  /// The face of a sheet at q, or the one next to it.
+  /// The face of a sheet at q, or the nearest one.
   Index face_at(const Sheet& sheet, const Vec& q) const;
-  /// Velocity of what moves with a face at x [L/T].
+  /// Velocity of the body of a face at x [L/T].
   Vec velocity(Index face, const Vec& x) const {
     return motions_.empty() ? Vec(Vec::Zero()) : motions_[face].at(x);
   }
   const WallSurface::Face& face(Index f) const { return faces_[f]; }
-  /// So far aside places are looked at (`WallPull::at` with them). [L]
+  /// Offset of positions for visibility tests (included in `WallDerivative::at`). [L]
   Vec shift() const { return put_aside(Vec::Zero()); }
-  /// How much farther aside a particle is looked at by itself. [L]
+  /// Further offset for a particle and its own images. [L]
   Vec shift_of_itself() const { return aside_again_ - aside_; }
-  /// Takes a way that a wall throws back to where its walls are placed now, but for its share. To oneself,
-  /// too, it comes from both ends alike, so that no force is left along the wall.
+  /// Moves a reflected path to the current wall positions, without its share. The path of a particle to
+  /// itself is averaged over both directions, so that no force along the wall remains.
   void bring(const Sheets& sheets, const Vec& x, const Vec& y, WallPath& path) const;
-  /// Where a way that walls throw back meets them, in turn, and on which face; returns how many these are.
+  /// The points where a reflected path meets its walls, in order, and their faces; returns their number.
   struct Crossing {
     Index face = 0;
-    Vec at = Vec::Zero();  ///< put aside, as `WallPull::at`
+    Vec at = Vec::Zero();  ///< put aside, as `WallDerivative::at`
   };
   int crossings(const Sheets& sheets, const WallPath& path, const Vec& x, const Vec& y,
                 std::array<Crossing, 4>& to) const;
-  /// Appends what a function of d alone, with the slope `by_d`, changes by with the walls that throw the way
-  /// back from y.
-  void pull_images(const Sheets& sheets, const WallPath& path, const Vec& y, const Vec& by_d,
-                   std::vector<WallPull>& to) const;
+  /// Appends the derivatives of a function of d alone, with the gradient `by_d`, with respect to the
+  /// reflecting walls.
+  void add_image_derivatives(const Sheets& sheets, const WallPath& path, const Vec& y, const Vec& by_d,
+                             std::vector<WallDerivative>& to) const;
 
  private:
-  /// Where another face begins at an edge: the edge is none to who is between both.
+  /// Another face that meets an edge: for particles between both, the edge is not free.
   struct Corner {
     Vec n = Vec::Zero();  ///< of the other face
     Real here = 0;        ///< side of the other face on which this one lies
     Real there = 0;       ///< side of this face on which the other one lies
     Index other = 0;      ///< that face
-    Real way = 1;         ///< to that side across the edge
+    Real sign = 1;        ///< to that side across the edge
   };
   struct Edge {
     bool ends = false;  ///< no face goes on from here in the plane
@@ -214,33 +215,33 @@ class WallPaths {
     Vec middle = Vec::Zero();
     Real half = 0;  ///< of its length [L]
   };
-  /// Where on a sheet a way meets it.
+  /// The point where a path meets a sheet.
   struct Meeting {
     bool crosses, inside;
     Vec at;
     Real share;
     Vec by_start, by_end;  ///< slopes of the share [1/L]
-    const Sheet* edge_of;  ///< the sheet whose edge makes it go over
-    Vec on_edge;           ///< where there is one
+    const Sheet* edge_of;  ///< the sheet whose edge causes a partial share
+    Vec on_edge;           ///< point on that edge
     static Meeting nowhere() {
       return {false, false, Vec::Zero(), 0, Vec::Zero(), Vec::Zero(), nullptr, Vec::Zero()};
     }
   };
-  /// How a way went, for whom its share depends on.
-  struct Way {
+  /// A path traced through its walls, for the derivatives of its share.
+  struct Ray {
     std::array<const Sheet*, 4> by;
-    std::array<Vec, 4> start, target;  ///< before each wall turns the path back
+    std::array<Vec, 4> start, target;  ///< before each reflection
     std::array<Meeting, 4> met;        ///< with that wall
     std::array<Meeting, 5> hidden;     ///< before each wall, and at the end
     Vec end;
     int steps;
-    bool bends;                        ///< its share goes over at an edge
-    Way() : steps(0), bends(false) {}  // the rest is set as far as the way goes
+    bool bends;                        ///< an edge makes its share partial
+    Ray() : steps(0), bends(false) {}  // the rest is set as the path is traced
     void step(const Sheet& sheet, const Vec& from, const Vec& to, const Meeting& m) {
       by[steps] = &sheet, start[steps] = from, target[steps] = to, met[steps++] = m;
     }
   };
-  /// Sheets that throw a path back, in turn.
+  /// The reflecting sheets of a path, in order.
   class Sequence {
    public:
     bool empty() const { return size_ == 0; }
@@ -257,49 +258,49 @@ class WallPaths {
     std::array<const Sheet*, 4> sheets_{};
     std::size_t size_ = 0;
   };
-  /// Walls that may throw a path back in turn, as far as that depends on where it starts.
+  /// A sequence of walls that may reflect a path from a start.
   struct Route {
     Sequence by;
-    Some walls = 0;                    ///< the same
-    std::size_t last = 0;              ///< of them
+    SheetSet walls = 0;                ///< as a set
+    std::size_t last = 0;              ///< index of the last one
     Matrix turn = Matrix::Identity();  ///< as of WallPath
-    Vec there = Vec::Zero();           ///< where its start is seen behind all of them
+    Vec there = Vec::Zero();           ///< image of the start behind all of them
     Real until = 0, least = 0;         ///< `find_routes`
-    Real side = 0;                     ///< of the last wall, on which it ends
-    Real front = 0;                    ///< what the start is off the first one [L]
+    Real side = 0;                     ///< side of the last wall on which the path ends
+    Real front = 0;                    ///< distance of the start from the first wall [L]
   };
-  /// Two particles between which ways are looked for.
+  /// A pair of particles whose paths are searched.
   struct Pair {
-    const Standpoint& from;
+    const Viewpoint& from;
     Index i, j;
     Vec y;
-    Some some;  ///< sheets that may matter
+    SheetSet candidates;  ///< sheets that may matter
     std::vector<WallPath>& to;
-    std::vector<WallPull>* pulls;
+    std::vector<WallDerivative>* derivatives;
   };
   struct Walls;
   struct Ending {
     const Sheet* sheet;
-    const Brink* edge;
+    const Border* edge;
   };
   bool is_one_edge(const Ending& one, const Ending& other) const;
   std::optional<LoneEdge> lone_edge_about(const Sheets& sheets, const Vec& x, Real around, bool moves) const;
   void leave_out_hidden(Walls& box) const;
   bool rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const;
-  bool stands_upright(const Walls& box, const Vec& centre, Real inside) const;
+  bool is_orthogonal(const Walls& box, const Vec& centre, Real inside) const;
   void find_ends(const Walls& box, const Sheets& sheets, const Vec& centre, Real around,
-                 OpenRoom& room) const;
+                 OpenSubDomain& domain) const;
   Sheet sheet_of(Index face) const;
   Sheets sheets_of(const std::vector<Index>& faces) const;
   bool goes_on_in(const Sheet& sheet, Index face) const;
   Edge edge_of(Index face, int edge) const;
   void add_edge(Sheet& sheet, Index face, int edge) const;
-  Brink now(const Brink& edge) const;
+  Border now(const Border& edge) const;
   bool is_free(Index face, int edge, const Vec& p) const;
   bool is_inside(const Sheet& sheet, const Vec& q) const;
   bool lies_in(const Vec& c, const Vec& d, const Sheet* sheet) const;
   bool turn_away(const Sheet& sheet, const Sheet& other, const Vec& x, const Vec& y) const;
-  /// About a path, with what may pass edges there.
+  /// Box around a path, enlarged by the width of edges.
   Box box_about(const Vec& a, const Vec& b) const {
     const Vec near = Vec::Constant(std::max(0.5 * width_, 2 * overlap * surface_.reach()));
     return {a.cwiseMin(b) - near, a.cwiseMax(b) + near};
@@ -308,10 +309,10 @@ class WallPaths {
                const Vec& x, const Vec& y, const Sheet* but = nullptr, const Sheet* and_but = nullptr) const;
   Meeting hidden(const Pair& pair, const Vec& a, const Vec& b, const Sheet* but = nullptr,
                  const Sheet* and_but = nullptr) const;
-  Real follow(const Pair& pair, const Sequence& by, Vec target, Way& way) const;
-  void find_slopes(const Way& way, WallPath& path, std::vector<WallPull>* pulls) const;
-  void find_routes(Standpoint& from, Sequence& by, const Vec& there, Real until, Real least) const;
-  bool may_end(const Standpoint& from, const Route& route, const Vec& y) const;
+  Real follow(const Pair& pair, const Sequence& by, Vec target, Ray& ray) const;
+  void find_slopes(const Ray& ray, WallPath& path, std::vector<WallDerivative>* derivatives) const;
+  void find_routes(Viewpoint& from, Sequence& by, const Vec& there, Real until, Real least) const;
+  bool may_end(const Viewpoint& from, const Route& route, const Vec& y) const;
   void add_straight(const Pair& pair) const;
   void add_path(const Pair& pair, const Route& route) const;
   void compare(Sheets& sheets) const;
@@ -322,50 +323,52 @@ class WallPaths {
   Vec velocity_of(const Sheet& sheet, const Vec& x) const {
     return sheet.body < 0 ? Vec(Vec::Zero()) : velocity(sheet.face, x);
   }
-  void pull(const Sheet& sheet, const Vec& at, const Vec& by_image, std::vector<WallPull>& to) const;
-  void pull_edge(const Meeting& m, Real times, std::vector<WallPull>& to) const;
-  void pull_start(const Way& way, int k, Vec by, std::vector<WallPull>& to) const;
-  void pull_target(const Way& way, int k, Vec by, std::vector<WallPull>& to) const;
-  void pull_hit(const Way& way, int k, const Vec& by, std::vector<WallPull>& to) const;
-  void pull_all(const Way& way, Real share, std::vector<WallPull>& to) const;
+  void add_derivative(const Sheet& sheet, const Vec& at, const Vec& by_image,
+                      std::vector<WallDerivative>& to) const;
+  void add_edge_derivative(const Meeting& m, Real times, std::vector<WallDerivative>& to) const;
+  void add_start_derivative(const Ray& ray, int k, Vec by, std::vector<WallDerivative>& to) const;
+  void add_target_derivative(const Ray& ray, int k, Vec by, std::vector<WallDerivative>& to) const;
+  void add_hit_derivative(const Ray& ray, int k, const Vec& by, std::vector<WallDerivative>& to) const;
+  void add_derivatives(const Ray& ray, Real share, std::vector<WallDerivative>& to) const;
   Vec put_aside(const Vec& x, bool again = false) const {
     return surface_.in_plane(x) + (again ? aside_again_ : aside_);
   }
 
-  static constexpr Real touching = 1e-3;  ///< of the reach: what is nearer is joined, as decks round places
-  static constexpr Real upright = 1e-6;   ///< cosine of the angle between walls of a sub-domain
-  static constexpr Real overlap = 1e-4;   ///< of the reach: so far faces go on past their edges
+  static constexpr Real touching =
+      1e-3;  ///< of the reach: nearer points coincide, as decks round coordinates
+  static constexpr Real orthogonal = 1e-6;  ///< cosine of the angle between walls of a sub-domain
+  static constexpr Real overlap = 1e-4;     ///< of the reach: faces extend past their edges by this
 
   const WallSurface& surface_;
   int dim_;
   Real width_;
-  Vec aside_, aside_again_;                 ///< so far places are put aside [L]
+  Vec aside_, aside_again_;                 ///< offsets for visibility tests [L]
   std::vector<std::array<Edge, 4>> edges_;  ///< of each face
   bool any_moves_ = false;
   const WallSurface::Face* faces_;        ///< as in the surface, or `moved_`
-  std::vector<WallSurface::Face> moved_;  ///< where they are now; empty: as in the surface
+  std::vector<WallSurface::Face> moved_;  ///< at their current position; empty: as in the surface
   std::vector<WallMotion> motions_;
-  std::vector<std::pair<Vec, Vec>> boxes_;  ///< about faces where they are now; none: as in the surface
+  std::vector<std::pair<Vec, Vec>> boxes_;  ///< of faces at their current position; empty: as in the surface
 };
 
-/// Where somebody stands and looks from, and what may be seen from there.
-class WallPaths::Standpoint {
+/// A position from which paths start, with the sheets and routes in its range.
+class WallPaths::Viewpoint {
  private:
   friend class WallPaths;
   const Sheets* sheets_ = nullptr;
-  Some some_ = 0;  ///< sheets that may matter
+  SheetSet candidates_ = 0;  ///< sheets that may matter
   Vec x_ = Vec::Zero();
   Real reach_ = 0;
-  std::vector<Real> height_, off_;  ///< over sheets and off them
-  std::vector<Real> height_there_;  ///< of whom is looked at
+  std::vector<Real> height_, off_;  ///< heights over sheets and distances from them
+  std::vector<Real> height_there_;  ///< heights of the other particle
   std::vector<Route> routes_;
 };
 
 inline void WallPaths::add(const Sheets& sheets, Index i, const Vec& x, Index j, const Vec& y, Real reach,
-                           std::vector<WallPath>& to, std::vector<WallPull>* pulls) const {
-  Standpoint from;
-  stand(sheets, x, reach, from);
-  add(from, i, j, y, to, pulls);
+                           std::vector<WallPath>& to, std::vector<WallDerivative>* derivatives) const {
+  Viewpoint from;
+  look_from(sheets, x, reach, from);
+  add(from, i, j, y, to, derivatives);
 }
 
 }  // namespace courant

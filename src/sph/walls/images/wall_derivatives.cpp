@@ -1,4 +1,4 @@
-// What the ways beside walls that move do to these walls.
+// Reactions of paths on moving walls.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,14 +38,14 @@ void WallPaths::take_along(const World& world, Real back) {
 void WallPaths::find_corner(Index face, int edge, Corner& corner) const {
   const auto &f = this->face(face), &g = this->face(corner.other);
   const Vec across = g.n.cross(f.x[(edge + 1) % f.corners] - f.x[edge]).normalized();
-  corner.n = g.n, corner.here = g.n.dot(f.inward[edge]), corner.there = corner.way * f.n.dot(across);
+  corner.n = g.n, corner.here = g.n.dot(f.inward[edge]), corner.there = corner.sign * f.n.dot(across);
 }
 
-void WallPaths::place(Sheets& sheets) const {
+void WallPaths::update(Sheets& sheets) const {
   for (Sheet& sheet : sheets) {
     if (sheet.body < 0) continue;
     sheet.n = face(sheet.face).n, sheet.offset = face(sheet.face).offset;
-    for (Brink& edge : sheet.edges) edge = now(edge);
+    for (Border& edge : sheet.edges) edge = now(edge);
     if (sheet.faces.empty()) continue;
     sheet.low = Vec::Constant(std::numeric_limits<Real>::infinity()), sheet.high = -sheet.low;
     for (const Index f : sheet.faces)
@@ -53,7 +53,7 @@ void WallPaths::place(Sheets& sheets) const {
   }
 }
 
-/// Where a wall throws back what is at x and moves with `velocity`, which goes over to that of the image.
+/// Mirror image of a point at x with `velocity`; `velocity` becomes that of the image.
 Vec WallPaths::image(const Sheet& sheet, const Vec& x, Vec& velocity) const {
   const Vec out = sheet.image(x);
   velocity = velocity_of(sheet, out) + sheet.turn() * (velocity - velocity_of(sheet, x));
@@ -84,90 +84,91 @@ Index WallPaths::face_at(const Sheet& sheet, const Vec& q) const {
   return best;
 }
 
-/// What changes by `by_image` times the path of the image of `at` changes with the wall by that, and by what
-/// is thrown back of it at `at` itself. Both together are a force along the normal, where the way goes
-/// through the wall.
-void WallPaths::pull(const Sheet& sheet, const Vec& at, const Vec& by_image,
-                     std::vector<WallPull>& to) const {
+/// Derivative with respect to the wall of a quantity with the gradient `by_image` at the image of `at`:
+/// the sum of the contributions at the image and at `at`, a normal force where the path meets the wall.
+void WallPaths::add_derivative(const Sheet& sheet, const Vec& at, const Vec& by_image,
+                               std::vector<WallDerivative>& to) const {
   if (sheet.body < 0) return;
   const Vec& n = sheet.n;
   const Real along = by_image.dot(n), height = sheet.height(at), force = 2 * along;
   Vec q = at - height * n, lever = 2 * height * (by_image - along * n);
   if (lever.norm() < surface_.reach() * std::abs(force)) q += lever / force, lever.setZero();
-  WallPull out{.face = face_at(sheet, q), .at = q, .force = force * n, .lever = lever};
+  WallDerivative out{.face = face_at(sheet, q), .at = q, .force = force * n, .lever = lever};
   if (face(out.face).n.dot(n) < 0) out.lever = -lever;
   to.push_back(out);
 }
 
-void WallPaths::pull_edge(const Meeting& m, Real times, std::vector<WallPull>& to) const {
+void WallPaths::add_edge_derivative(const Meeting& m, Real times, std::vector<WallDerivative>& to) const {
   if (!m.edge_of || m.edge_of->body < 0) return;
   to.push_back(
       {.face = face_at(*m.edge_of, m.on_edge), .at = m.on_edge, .force = times * (m.by_start + m.by_end)});
 }
 
-/// `by` belongs to where the way starts before wall k, behind the ones before it.
-void WallPaths::pull_start(const Way& way, int k, Vec by, std::vector<WallPull>& to) const {
+/// `by`: gradient at the start of the path before wall k, mirrored by the walls before it.
+void WallPaths::add_start_derivative(const Ray& ray, int k, Vec by, std::vector<WallDerivative>& to) const {
   while (k-- > 0) {
-    pull(*way.by[k], way.start[k], by, to);
-    by = way.by[k]->turn() * by;
+    add_derivative(*ray.by[k], ray.start[k], by, to);
+    by = ray.by[k]->turn() * by;
   }
 }
 
-/// `by` belongs to the image that the way aims at before wall k, behind that one and those to come.
-void WallPaths::pull_target(const Way& way, int k, Vec by, std::vector<WallPull>& to) const {
-  for (; k < way.steps; ++k) {
-    pull(*way.by[k], k + 1 < way.steps ? way.target[k + 1] : way.end, by, to);
-    by = way.by[k]->turn() * by;
+/// `by`: gradient at the target image before wall k, mirrored by this wall and the following ones.
+void WallPaths::add_target_derivative(const Ray& ray, int k, Vec by, std::vector<WallDerivative>& to) const {
+  for (; k < ray.steps; ++k) {
+    add_derivative(*ray.by[k], k + 1 < ray.steps ? ray.target[k + 1] : ray.end, by, to);
+    by = ray.by[k]->turn() * by;
   }
 }
 
-/// `by` belongs to where wall k is hit; -1 and the number of walls are the ends of the path.
-void WallPaths::pull_hit(const Way& way, int k, const Vec& by, std::vector<WallPull>& to) const {
-  if (k < 0 || k == way.steps || by.isZero()) return;
-  const Sheet& s = *way.by[k];
-  const Meeting& m = way.met[k];
+/// `by`: gradient at the point where the path meets wall k; -1 and the number of walls are the ends of the
+/// path.
+void WallPaths::add_hit_derivative(const Ray& ray, int k, const Vec& by,
+                                   std::vector<WallDerivative>& to) const {
+  if (k < 0 || k == ray.steps || by.isZero()) return;
+  const Sheet& s = *ray.by[k];
+  const Meeting& m = ray.met[k];
   if (!m.crosses) {
     if (m.edge_of && m.edge_of->body >= 0)
       to.push_back({.face = face_at(*m.edge_of, m.on_edge), .at = m.on_edge, .force = by});
     return;
   }
-  const Vec along = way.target[k] - way.start[k], with_wall = along.dot(by) / s.n.dot(along) * s.n;
+  const Vec along = ray.target[k] - ray.start[k], with_wall = along.dot(by) / s.n.dot(along) * s.n;
   if (s.body >= 0) to.push_back({.face = face_at(s, m.at), .at = m.at, .force = with_wall});
-  const Real part = s.height(way.start[k]) / (s.height(way.start[k]) - s.height(way.target[k]));
-  pull_start(way, k, (1 - part) * (by - with_wall), to);
-  pull_target(way, k, part * (by - with_wall), to);
+  const Real part = s.height(ray.start[k]) / (s.height(ray.start[k]) - s.height(ray.target[k]));
+  add_start_derivative(ray, k, (1 - part) * (by - with_wall), to);
+  add_target_derivative(ray, k, part * (by - with_wall), to);
 }
 
-/// The share is a product of what walls take and of what none of the others hides.
-void WallPaths::pull_all(const Way& way, Real share, std::vector<WallPull>& to) const {
-  for (int k = 0; k <= way.steps; ++k) {
-    if (const Meeting& h = way.hidden[k]; h.edge_of && h.share > 0) {
+/// The share is the product of the reflected shares and of the visible shares between walls.
+void WallPaths::add_derivatives(const Ray& ray, Real share, std::vector<WallDerivative>& to) const {
+  for (int k = 0; k <= ray.steps; ++k) {
+    if (const Meeting& h = ray.hidden[k]; h.edge_of && h.share > 0) {
       const Real others = share / (1 - h.share);
-      pull_hit(way, k - 1, -others * h.by_start, to);
-      pull_hit(way, k, -others * h.by_end, to);
-      pull_edge(h, others, to);
+      add_hit_derivative(ray, k - 1, -others * h.by_start, to);
+      add_hit_derivative(ray, k, -others * h.by_end, to);
+      add_edge_derivative(h, others, to);
     }
-    if (k == way.steps) break;
-    if (const Meeting& m = way.met[k]; m.edge_of) {
+    if (k == ray.steps) break;
+    if (const Meeting& m = ray.met[k]; m.edge_of) {
       const Real others = share / m.share;
-      pull_start(way, k, others * m.by_start, to);
-      pull_target(way, k, others * m.by_end, to);
-      pull_edge(m, -others, to);
+      add_start_derivative(ray, k, others * m.by_start, to);
+      add_target_derivative(ray, k, others * m.by_end, to);
+      add_edge_derivative(m, -others, to);
     }
   }
 }
 
-void WallPaths::pull_images(const Sheets& sheets, const WallPath& path, const Vec& y, const Vec& by_d,
-                            std::vector<WallPull>& to) const {
-  Way way;
-  way.end = put_aside(y);
-  while (way.steps < 4 && path.by[static_cast<std::size_t>(way.steps)] >= 0) {
-    way.by[way.steps] = &sheets[static_cast<std::size_t>(path.by[way.steps])];
-    ++way.steps;
+void WallPaths::add_image_derivatives(const Sheets& sheets, const WallPath& path, const Vec& y,
+                                      const Vec& by_d, std::vector<WallDerivative>& to) const {
+  Ray ray;
+  ray.end = put_aside(y);
+  while (ray.steps < 4 && path.by[static_cast<std::size_t>(ray.steps)] >= 0) {
+    ray.by[ray.steps] = &sheets[static_cast<std::size_t>(path.by[ray.steps])];
+    ++ray.steps;
   }
-  Vec at = way.end;
-  for (int k = way.steps; k-- > 0;) way.target[k] = at = way.by[k]->image(at);
-  pull_target(way, 0, -by_d, to);
+  Vec at = ray.end;
+  for (int k = ray.steps; k-- > 0;) ray.target[k] = at = ray.by[k]->image(at);
+  add_target_derivative(ray, 0, -by_d, to);
 }
 
 }  // namespace courant

@@ -1,29 +1,29 @@
-// Where walls are those of a box, as far as somebody sees.
+// Regions whose walls are those of a box corner.
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "parallel/parallel.hpp"
 #include "sph/kernel/kernel.hpp"
-#include "sph/walls/images/wall_outlooks.hpp"
+#include "sph/walls/images/wall_visibility.hpp"
 
 namespace courant {
 
 namespace {
 
-/// Notes that a wall of a sub-domain ends at a line through `at`, if there is space for it.
-bool add_end(WallRoom& room, int wall, const Vec& out, const Vec& at) {
+/// Adds an end of a wall, a line through `at`; false if there is no space for it.
+bool add_end(WallSubDomain& domain, int wall, const Vec& out, const Vec& at) {
   const Real limit = out.dot(at);
-  for (int e = 0; e < room.ends; ++e) {
-    const WallRoom::End& known = room.end[e];
+  for (int e = 0; e < domain.ends; ++e) {
+    const WallSubDomain::End& known = domain.end[e];
     if ((Vec(known.m[0], known.m[1], known.m[2]) - out).norm() < 1e-6 &&
         std::abs(known.limit - limit) < 1e-6 * (std::abs(limit) + at.norm()))
       return true;
   }
-  if (room.ends == WallRoom::most_ends) return false;
-  WallRoom::End& end = room.end[room.ends++];
-  for (int c = 0; c < 3; ++c) end.m[c] = out[c], end.n[c] = room.n[wall][c];
-  end.limit = limit, end.offset = room.offset[wall];
+  if (domain.ends == WallSubDomain::most_ends) return false;
+  WallSubDomain::End& end = domain.end[domain.ends++];
+  for (int c = 0; c < 3; ++c) end.m[c] = out[c], end.n[c] = domain.n[wall][c];
+  end.limit = limit, end.offset = domain.offset[wall];
   return true;
 }
 
@@ -36,11 +36,11 @@ Real WallPaths::distance_to(const Vec& x, const Vec& a, const Vec& b) {
   return (x - a - s * along).norm();
 }
 
-/// Walls of which some are those of a sub-domain, each seen from one side.
+/// Walls of a sub-domain, each with the side that faces it.
 struct WallPaths::Walls {
   std::vector<const Sheet*> walls;
   std::vector<Real> side;
-  std::vector<const Sheet*> far;  ///< out of reach, though what ends at them is not
+  std::vector<const Sheet*> far;  ///< out of range, with ends in range
   Real height(std::size_t k, const Vec& x) const { return side[k] * walls[k]->height(x); }
   void leave_out(std::size_t k) {
     walls.erase(walls.begin() + static_cast<std::ptrdiff_t>(k));
@@ -48,7 +48,7 @@ struct WallPaths::Walls {
   }
 };
 
-/// Leaves out what stands wholly behind another wall; that this one hides it is for others to find out.
+/// Removes walls that are entirely behind another wall.
 void WallPaths::leave_out_hidden(Walls& box) const {
   const Real most = 1e-3 * surface_.reach();
   const auto is_behind = [&](std::size_t t, std::size_t k) {
@@ -66,15 +66,15 @@ void WallPaths::leave_out_hidden(Walls& box) const {
       }
 }
 
-/// Whether the walls are at right angles to each other, and in the box they are there.
-bool WallPaths::stands_upright(const Walls& box, const Vec& centre, Real inside) const {
+/// Whether the walls are orthogonal and cover the box near the centre.
+bool WallPaths::is_orthogonal(const Walls& box, const Vec& centre, Real inside) const {
   const std::size_t n = box.walls.size();
   if (n == 0 || n > static_cast<std::size_t>(dim_)) return false;
   for (std::size_t k = 0; k < n; ++k) {
     Vec q = centre - box.walls[k]->height(centre) * box.walls[k]->n;
     for (std::size_t l = 0; l < n; ++l) {
       if (l == k) continue;
-      if (std::abs(box.walls[k]->n.dot(box.walls[l]->n)) > upright) return false;
+      if (std::abs(box.walls[k]->n.dot(box.walls[l]->n)) > orthogonal) return false;
       const Real deep = box.height(l, q);
       if (deep < inside) q += (inside - deep) * box.side[l] * box.walls[l]->n;
     }
@@ -83,7 +83,7 @@ bool WallPaths::stands_upright(const Walls& box, const Vec& centre, Real inside)
   return true;
 }
 
-/// Whether any of a sheet is on the side of another one that x is on.
+/// Whether a part of the sheet is on the same side of another one as x.
 bool WallPaths::rises_from(const Sheet& sheet, const Sheet& other, const Vec& x) const {
   const Real side = other.height(x) > 0 ? 1 : -1, most = 1e-3 * surface_.reach();
   return std::any_of(sheet.faces.begin(), sheet.faces.end(), [&](Index f) {
@@ -92,12 +92,12 @@ bool WallPaths::rises_from(const Sheet& sheet, const Sheet& other, const Vec& x)
   });
 }
 
-/// Edges in the box within `around` of `centre`: up to them, each wall covers all of its side.
+/// Finds edges within `around` of `centre`; up to them, each wall covers its side entirely.
 void WallPaths::find_ends(const Walls& box, const Sheets& sheets, const Vec& centre, Real around,
-                          OpenRoom& room) const {
+                          OpenSubDomain& domain) const {
   const Real most = 1e-3 * surface_.reach();
   for (const Sheet& sheet : sheets)
-    for (const Brink& edge : sheet.edges) {
+    for (const Border& edge : sheet.edges) {
       const Vec a = surface_.in_plane(edge.from), b = surface_.in_plane(edge.to);
       if (distance_to(centre, a, b) > around) continue;
       bool hidden = false;
@@ -109,68 +109,71 @@ void WallPaths::find_ends(const Walls& box, const Sheets& sheets, const Vec& cen
                rises_from(*far, sheet, centre);
       });
       if (hidden) continue;
-      room.ends.push_back({a, b});
+      domain.ends.push_back({a, b});
       const auto wall = std::find(box.walls.begin(), box.walls.end(), &sheet);
-      room.known &= wall != box.walls.end() && add_end(room.open, static_cast<int>(wall - box.walls.begin()),
-                                                       -face(edge.face).inward[edge.edge], a);
+      domain.known &=
+          wall != box.walls.end() && add_end(domain.open, static_cast<int>(wall - box.walls.begin()),
+                                             -face(edge.face).inward[edge.edge], a);
     }
 }
 
-std::vector<OpenRoom> WallPaths::rooms_about(const Sheets& sheets, const Vec& at, Real half,
-                                             Real reach) const {
+std::vector<OpenSubDomain> WallPaths::sub_domains_about(const Sheets& sheets, const Vec& at, Real half,
+                                                        Real reach) const {
   const Vec centre = surface_.in_plane(at);
-  std::vector<OpenRoom> rooms;
+  std::vector<OpenSubDomain> domains;
   Walls near;
   for (const Sheet& s : sheets) {
-    if (s.body >= 0) return rooms;
+    if (s.body >= 0) return domains;
     if (s.off(centre) < reach + half)
       near.walls.push_back(&s);
     else if (std::abs(s.height(centre)) >= reach + half)
       near.far.push_back(&s);
   }
-  std::vector<std::size_t> either;  // those that the positions about the centre are on both sides of
+  std::vector<std::size_t> either;  // walls with positions around the centre on both sides
   for (std::size_t k = 0; k < near.walls.size(); ++k) {
     const Real height = near.walls[k]->height(centre);
     near.side.push_back(height > 0 ? 1 : -1);
     if (std::abs(height) <= half) either.push_back(k);
   }
-  if (either.size() > 3) return rooms;
+  if (either.size() > 3) return domains;
   for (unsigned turned = 0; turned < 1U << either.size(); ++turned) {
     Walls box = near;
     for (std::size_t k = 0; k < either.size(); ++k)
       if (turned >> k & 1U) box.side[either[k]] *= -1;
     leave_out_hidden(box);
-    if (!stands_upright(box, centre, 1e-3 * reach)) continue;
-    OpenRoom room;
-    WallRoom& walls = room.open;
+    if (!is_orthogonal(box, centre, 1e-3 * reach)) continue;
+    OpenSubDomain domain;
+    WallSubDomain& walls = domain.open;
     for (std::size_t k = 0; k < box.walls.size(); ++k) {
       const Vec n = box.side[k] * box.walls[k]->n;
       for (int c = 0; c < 3; ++c) walls.n[k][c] = n[c];
       walls.offset[k] = box.side[k] * box.walls[k]->offset, walls.face[k] = box.walls[k]->faces.front();
     }
     walls.walls = static_cast<int>(box.walls.size());
-    room.room = walls;
-    find_ends(box, sheets, centre, reach + half + 0.5 * width_, room);
-    rooms.push_back(room);
+    domain.closed = walls;
+    find_ends(box, sheets, centre, reach + half + 0.5 * width_, domain);
+    domains.push_back(domain);
   }
-  return rooms;
+  return domains;
 }
 
-std::unique_ptr<WallRoom> WallPaths::closed_room_about(const Sheets& sheets, const Vec& x, Real sight) const {
-  std::unique_ptr<WallRoom> out;
-  for (const OpenRoom& room : rooms_about(sheets, x, 0, sight))
-    if (room.ends.empty()) out = std::make_unique<WallRoom>(room.room);
+std::unique_ptr<WallSubDomain> WallPaths::closed_sub_domain_about(const Sheets& sheets, const Vec& x,
+                                                                  Real sight) const {
+  std::unique_ptr<WallSubDomain> out;
+  for (const OpenSubDomain& domain : sub_domains_about(sheets, x, 0, sight))
+    if (domain.ends.empty()) out = std::make_unique<WallSubDomain>(domain.closed);
   return out;
 }
 
-std::unique_ptr<WallRoom> WallPaths::open_room_about(const Sheets& sheets, const Vec& x, Real sight) const {
-  std::unique_ptr<WallRoom> out;
-  for (const OpenRoom& room : rooms_about(sheets, x, 0, sight))
-    if (room.holds_open(x, 0.5 * width_)) out = std::make_unique<WallRoom>(room.open);
+std::unique_ptr<WallSubDomain> WallPaths::open_sub_domain_about(const Sheets& sheets, const Vec& x,
+                                                                Real sight) const {
+  std::unique_ptr<WallSubDomain> out;
+  for (const OpenSubDomain& domain : sub_domains_about(sheets, x, 0, sight))
+    if (domain.holds_open(x, 0.5 * width_)) out = std::make_unique<WallSubDomain>(domain.open);
   return out;
 }
 
-WallOutlooks::WallOutlooks(const WallSurface& surface, Real width, Real cell, Real reach, Alike alike)
+WallVisibility::WallVisibility(const WallSurface& surface, Real width, Real cell, Real reach, Alike alike)
     : surface_(surface),
       paths_(surface, surface.dim(), width),
       reach_(reach),
@@ -178,14 +181,14 @@ WallOutlooks::WallOutlooks(const WallSurface& surface, Real width, Real cell, Re
       cells_(cell),
       alike_(std::move(alike)) {}
 
-/// What a position in a cell is farthest from its middle. [L]
-Real WallOutlooks::half_of(Real cell, int dim) {
+/// Greatest distance of a position in a cell from its middle. [L]
+Real WallVisibility::half_of(Real cell, int dim) {
   return 0.5 * std::sqrt(Real(dim)) * cell;
 }
 
-void WallOutlooks::look_from(const Particles& p) {
+void WallVisibility::look_from(const Particles& p) {
   seen_.resize(static_cast<std::size_t>(p.active));
-  std::vector<std::pair<Vec, WallOutlook*>> unknown;
+  std::vector<std::pair<Vec, CellVisibility*>> unknown;
   std::uint64_t last = 0;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Vec x = surface_.in_plane(p.x.vec(static_cast<Index>(i)));
@@ -195,7 +198,7 @@ void WallOutlooks::look_from(const Particles& p) {
       continue;
     }
     last = cell;
-    const auto [place, is_new] = outlooks_.try_emplace(cell);
+    const auto [place, is_new] = visibility_.try_emplace(cell);
     if (is_new) {
       unknown.push_back({surface_.in_plane(cells_.middle(x)), &place->second});
     }
@@ -203,34 +206,35 @@ void WallOutlooks::look_from(const Particles& p) {
   }
   for_each(static_cast<Index>(unknown.size()), [&](Index k) {
     const auto& [middle, to] = unknown[static_cast<std::size_t>(k)];
-    *to = outlook_from(middle);
+    *to = visibility_from(middle);
   });
 }
 
-const WallRoom* WallOutlooks::room(Index i, const Vec& at, Real sight, std::unique_ptr<WallRoom>& own) const {
+const WallSubDomain* WallVisibility::sub_domain(Index i, const Vec& at, Real sight,
+                                                std::unique_ptr<WallSubDomain>& own) const {
   const Vec x = surface_.in_plane(at);
   own.reset();
   if (of(i).nothing) return nullptr;
-  if (const WallRoom* room = of(i).room_of(x, sight + 0.5 * width_)) return room;
+  if (const WallSubDomain* domain = of(i).sub_domain_of(x, sight + 0.5 * width_)) return domain;
   if (!of(i).alike) return nullptr;
-  own = paths_.closed_room_about(of(i).sheets, x, sight);
+  own = paths_.closed_sub_domain_about(of(i).sheets, x, sight);
   return own.get();
 }
 
-const WallRoom* WallOutlooks::open_room(Index i, const Vec& at, Real sight,
-                                        std::unique_ptr<WallRoom>& own) const {
-  if (const WallRoom* closed = room(i, at, sight, own)) return closed;
+const WallSubDomain* WallVisibility::open_sub_domain(Index i, const Vec& at, Real sight,
+                                                     std::unique_ptr<WallSubDomain>& own) const {
+  if (const WallSubDomain* closed = sub_domain(i, at, sight, own)) return closed;
   if (of(i).nothing || !of(i).alike) return nullptr;
   const Vec x = surface_.in_plane(at);
-  for (const OpenRoom& room : of(i).rooms)
-    if (room.holds_open(x, 0.5 * width_)) return &room.open;
-  own = paths_.open_room_about(of(i).sheets, x, sight);
+  for (const OpenSubDomain& domain : of(i).domains)
+    if (domain.holds_open(x, 0.5 * width_)) return &domain.open;
+  own = paths_.open_sub_domain_about(of(i).sheets, x, sight);
   return own.get();
 }
 
-WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
+CellVisibility WallVisibility::visibility_from(const Vec& middle) const {
   const Real half = half_of(cells_.size(), surface_.dim());
-  WallOutlook out;
+  CellVisibility out;
   out.sheets = paths_.sheets_around(middle, reach_ + half + 0.5 * width_);
   out.nothing = std::all_of(out.sheets.begin(), out.sheets.end(), [&](const WallPaths::Sheet& s) {
     return s.edges.empty() && std::abs(s.height(middle)) >= reach_ + half;
@@ -239,22 +243,23 @@ WallOutlook WallOutlooks::outlook_from(const Vec& middle) const {
     return std::all_of(s.faces.begin(), s.faces.end(), [&](Index f) { return alike_(s.faces[0], f); });
   };
   out.alike = std::all_of(out.sheets.begin(), out.sheets.end(), alike);
-  if (!out.nothing && out.alike) out.rooms = paths_.rooms_about(out.sheets, middle, half, reach_);
-  const bool closed = !out.rooms.empty() && std::all_of(out.rooms.begin(), out.rooms.end(),
-                                                        [](const OpenRoom& r) { return r.ends.empty(); });
+  if (!out.nothing && out.alike) out.domains = paths_.sub_domains_about(out.sheets, middle, half, reach_);
+  const bool closed =
+      !out.domains.empty() && std::all_of(out.domains.begin(), out.domains.end(),
+                                          [](const OpenSubDomain& r) { return r.ends.empty(); });
   if (!out.nothing && !closed) out.points = surface_.points_around(middle, surface_.reach() + 2 * half);
   return out;
 }
 
-bool OpenRoom::holds(const Vec& x, Real sight) const {
-  for (int k = 0; k < room.walls; ++k)
-    if (!(Vec(room.n[k][0], room.n[k][1], room.n[k][2]).dot(x) > room.offset[k])) return false;
+bool OpenSubDomain::holds(const Vec& x, Real sight) const {
+  for (int k = 0; k < closed.walls; ++k)
+    if (!(Vec(closed.n[k][0], closed.n[k][1], closed.n[k][2]).dot(x) > closed.offset[k])) return false;
   return std::none_of(ends.begin(), ends.end(), [&](const auto& edge) {
     return WallPaths::distance_to(x, edge.first, edge.second) <= sight;
   });
 }
 
-bool OpenRoom::holds_open(const Vec& x, Real within) const {
+bool OpenSubDomain::holds_open(const Vec& x, Real within) const {
   const auto at = [&](const Real(&n)[3]) { return n[0] * x[0] + n[1] * x[1] + n[2] * x[2]; };
   for (int k = 0; k < open.walls; ++k)
     if (!(at(open.n[k]) > open.offset[k])) return false;
@@ -263,9 +268,9 @@ bool OpenRoom::holds_open(const Vec& x, Real within) const {
   return known;
 }
 
-const WallRoom* WallOutlook::room_of(const Vec& x, Real sight) const {
-  for (const OpenRoom& open : rooms)
-    if (open.holds(x, sight)) return &open.room;
+const WallSubDomain* CellVisibility::sub_domain_of(const Vec& x, Real sight) const {
+  for (const OpenSubDomain& open : domains)
+    if (open.holds(x, sight)) return &open.closed;
   return nullptr;
 }
 
