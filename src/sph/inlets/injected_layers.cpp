@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sph/cards.hpp"
+#include "sph/inlets/inlet_flow.hpp"
 #include "sph/inlets/injection.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "state/shared_fields.hpp"
@@ -275,6 +276,8 @@ Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& d
   if (const Entry* card = first_injection(deck)) {
     const int dim = dimension(deck, *card, diagnostics);
     if (dim != 0) out.inlets = read_injections(deck, model, dim, diagnostics);
+  } else {
+    read_inflows(deck, model, out.inlets, diagnostics);  // cards without an inlet
   }
   if (out.inlets.empty() || diagnostics.errors() > errors) return out;
   std::vector<Row> rows = rows_of(out.inlets);

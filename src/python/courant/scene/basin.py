@@ -13,7 +13,7 @@ from .model import Model, Part, PlaceExpression, Plate, Variables, Vector
 from .numbers import number_text
 from .placeholders import substitute
 from .requests import REQUESTS
-from .solids import Solid, cards_of_solids, number_parts, part_of
+from .solids import Solid, cards_of_solids, fastest_of, number_parts, part_of
 from .openings import Inlet, Outlet, add_openings, with_outlets
 from .structures import Structure, add_structures
 
@@ -165,7 +165,8 @@ class Basin:
             return ""
         factor = 20.0  # a blow squeezes the liquid by speed / sound speed
         v = self.water.velocity or (0.0, 0.0, 0.0)
-        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets), *(speed**2 for speed in self.speeds_of_walls())]
+        squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets), *(speed**2 for speed in self.speeds_of_walls()),
+                   *(float(np.dot(solid.velocity or (0.0, 0.0, 0.0), solid.velocity or (0.0, 0.0, 0.0))) + self.falls(solid, top, bottom) for solid in self.solids if solid.free)]
         speed = math.sqrt(2 * self.gravity * max(0.0, top - bottom) + max(squares))
         if not speed > 0 or self.water.velocity_of_place or any(inlet.formula and not inlet.held for inlet in self.inlets) or not math.isfinite(speed):
             return "'sound_speed' is missing: it follows only from gravity, one velocity of all the water and steady inlets; give twenty times the largest speed"
@@ -174,8 +175,13 @@ class Basin:
         return ""
 
     def speeds_of_walls(self) -> list[float]:
-        """Of the points of walls that turn which are farthest from their axes [L/T]."""
-        return [solid.rotation.fastest(solid.shape, self.end) for solid in self.solids if solid.rotation is not None]
+        """Largest speeds of walls with a motion: of walls that turn, of the points farthest from their axes [L/T]."""
+        moved = [motion for motion in (self.box_motion, *(solid.motion for solid in self.solids)) if motion]
+        return [*(solid.rotation.fastest(solid.shape, self.end) for solid in self.solids if solid.rotation is not None), *(fastest_of(motion, self.end) for motion in moved)]
+
+    def falls(self, solid: Solid, top: float, bottom: float) -> float:
+        """2 g times how much farther a body falls than the water [L2/T2]."""
+        return 2 * self.gravity * max(0.0, float(solid.shape.low[self.dim - 1]) - max(top, bottom))
 
     def variables(self) -> Variables:
         """Of the cards."""

@@ -19,7 +19,7 @@ def explain_basin(basin: Basin, model: Model) -> None:
 
     add(f"{basin.dim} dimensions, {up} upwards", "corners have two components in the plane, three in space", "*CONTROL_SPH IDIM")
     add(f"sound speed {number_text(basin.sound_speed)}", "given" if basin.speed_given else
-        "twenty times the speed of a fall over the height of the water: a blow squeezes it by a twentieth; softer than real water, so that steps are longer",
+        "twenty times the speed of a fall over the height of the water, with those of inlets, bodies and driven walls: a blow squeezes it by a twentieth; softer than real water, so that steps are longer",
         "*EOS_LINEAR_POLYNOMIAL C1")
     add(f"artificial viscosity {number_text(basin.friction)}", "given" if basin.viscosity is not None else
         "none, as it damps waves; density diffusion smooths the sound of blows", "*HOURGLASS Q2")

@@ -193,6 +193,13 @@ def check_inlets(reader: BasinReader, basin: Basin) -> None:
     if len(levels) > 1:
         reader.diagnostics.error(basin.inlets[-1].where, "inlets of a scene are all jets, or all have one level of the water",
                                  f"levels: {', '.join('a jet' if one is None else f'{one:g}' for one in sorted(levels, key=str))}")
+    for inlet in basin.inlets if basin.box else ():
+        for k, half in enumerate(_half_extents(inlet, basin.dim)):
+            for end, beyond in enumerate((basin.box[0][k] - (inlet.at[k] - half), inlet.at[k] + half - basin.box[1][k])):  # type: ignore[index]
+                side = basin.sides[2 * k + end]
+                if beyond > 0.5 * basin.spacing and side not in basin.open:
+                    reader.diagnostics.error(inlet.where, f"an inlet reaches {beyond:.4g} beyond the wall '{side}' of the box: that part of the water would fall outside",
+                                             "move 'at' into the box, or make the inlet smaller")
     for inlet in basin.inlets if basin.mirrors and basin.box else ():
         for k in range(basin.dim):
             end = 0 if inlet.direction[k] > 0 else 1
@@ -205,6 +212,17 @@ def check_inlets(reader: BasinReader, basin: Basin) -> None:
                 reader.diagnostics.error(inlet.where, f"an inlet {gap:.4g} in front of the wall '{side}' of the box, nearer than "
                                          f"{_GAP:g} spacings: as the wall is a mirror, the water would be held by its image",
                                          f"at: [{', '.join(f'{v:.4g}' for v in there[: basin.dim])}], or wall_method: contact")
+
+
+def _half_extents(inlet: Inlet, dim: int) -> list[float]:
+    """Half of the extents of the mouth of an inlet along the axes [L]."""
+    d = inlet.direction
+    if dim == 2 or len(inlet.size) == 1:
+        return [inlet.size[0] * math.sqrt(max(0.0, 1 - float(d[k]) ** 2)) for k in range(dim)]
+    level = np.array([-d[1], d[0], 0.0]) if math.hypot(d[0], d[1]) > 1e-9 else np.array([1.0, 0.0, 0.0])
+    level /= np.linalg.norm(level)
+    upright = np.cross(d, level)
+    return [float(abs(level[k]) * inlet.size[0] + abs(upright[k]) * inlet.size[1]) / 2 for k in range(dim)]
 
 
 def _size(reader: BasinReader, node: Node, key: str) -> tuple[float, ...]:

@@ -1,6 +1,7 @@
 """Walls and rigid bodies of a scene, and the cards that they need."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -8,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..diagnostics import Location
+from ..expressions import Formula
 from .model import Part, Vector
 from .placeholders import substitute
 from .rotations import Rotation, is_oblique, local_axes, rotation_cards
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from .basin import Basin
     from .wave_reader import Piston
 
+_TIMES = 2001  # at which motions are evaluated
 FREE = ("x", "y", "z", "rx", "ry", "rz")
 FIRST_WALL, FIRST_BODY, FIRST_CURVE = 12, 101, 901
 SOLIDS, HELD, BODIES, MIRRORS = 2, 3, 4, 5  # sets of parts: all, those that do not move freely, those that do, those that mirror
@@ -216,6 +219,21 @@ def wave_maker_cards(basin: Basin, solid: Solid, first_curve: int) -> tuple[str,
         "dist": piston.away if piston.absorb > 0 else 0.0, "tau": piston.delay,
         "tdrift": piston.drift if piston.absorb > 0 else 0.0, "xmax": min(piston.space, piston.depth) if piston.space > 0 else 0.0})
     return card + curves, 2
+
+
+def fastest_of(motion: dict[str, str | np.ndarray], end: float) -> float:
+    """Largest speed of a motion by displacements, from 0 to `end` [L/T]. A formula with functions that the program alone knows does not count."""
+    times = np.linspace(0.0, end, _TIMES)
+    square = np.zeros(len(times))
+    for displacement in motion.values():
+        if isinstance(displacement, str):
+            formula = Formula(displacement.lower(), ("time",), {"pi": math.pi})
+            path = formula.over({"time": times}, len(times)) if formula.ok else np.zeros(len(times))
+        else:
+            path = np.interp(times, displacement[:, 0], displacement[:, 1])
+        if end > 0 and np.isfinite(path).all():
+            square += np.gradient(path, times) ** 2
+    return float(np.sqrt(square.max()))
 
 
 def moving_cards(basin: Basin, walls: Part | None) -> tuple[list[str], bool]:
