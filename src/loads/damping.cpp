@@ -127,11 +127,12 @@ class DampingReader {
 /// With d = D dt/2: v+ = ((1 - d) v- + f dt/m)/(1 + d), which damps at any step; so f becomes
 /// (f - D m v-)/(1 + d). The step is not known yet: the one before represents it, what is taken from the
 /// energy is counted with the kick that is done, and no step may be so much longer that v+ turns round.
-/// Nothing acts along axes that SPC hold: their reaction is that of the forces alone. Prescribed motions
-/// overcome the damping along their directions.
+/// Nothing acts along axes that SPC hold, nor along directions of prescribed motions: their reaction is that
+/// of the forces alone.
 class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
  public:
-  MassDamping(std::vector<Damping> damping, Points points) : damping_(std::move(damping)), points_(points) {
+  MassDamping(std::vector<Damping> damping, Points points)
+      : damping_(std::move(damping)), points_(points), across_(points) {
     for (const Damping& d : damping_) by_parts_ = by_parts_ || !d.parts.empty();
     held_axes_ = points_.held().find(*points_.set);
   }
@@ -141,6 +142,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
     if (points_.follow) a.reads(*points_.follow);
     if (by_parts_ && points_.part) a.reads(*points_.part);
+    across_.declare(a);
     if (held_axes_) a.reads(*held_axes_);
   }
 
@@ -154,10 +156,12 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     for (Index i = begin; i < end; ++i) {
       if (points_.follow && (*points_.follow)[i]) continue;
       const Vec D = constant(i);
+      const Vec before = across_.any(i) ? points_.f->vec(i) : Vec(Vec::Zero());
       for (int k = 0; k < 3; ++k) {
         Real& f = points_.f->data(k)[i];
         f = (f - D[k] * (*points_.m)[i] * points_.v->data(k)[i]) / (1 + D[k] * half_);
       }
+      if (across_.any(i)) points_.f->set(i, before + across_(i, points_.f->vec(i) - before));
     }
   }
 
@@ -174,7 +178,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
       if (points_.follow && (*points_.follow)[i]) return 0;
       const Vec D = constant(i);
       const Vec force = D.cwiseProduct((*points_.m)[i] * points_.v->vec(i) + half_ * points_.f->vec(i));
-      return force.dot(v(i)) * clock.dt_mean();
+      return across_(i, force).dot(v(i)) * clock.dt_mean();
     });
     ledger.dissipated += lost;
     ledger.throughput += std::abs(lost);
@@ -197,6 +201,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
 
   std::vector<Damping> damping_;
   Points points_;
+  AcrossDrives across_;
   bool by_parts_ = false;
   const Field<Index>* held_axes_ = nullptr;  ///< null: there are none
   std::vector<Vec> constants_;               ///< of each of them now [1/T]

@@ -13,6 +13,26 @@ inline Vec driven_part(const Field<Real>& projector, Index i, const Vec& a) {
           P(5) * a[0] + P(4) * a[1] + P(2) * a[2]};
 }
 
+/// The part of forces across the directions in which prescribed motions drove points in the last step.
+/// Damping has no other one, so that reactions of motions are those of the other forces.
+class AcrossDrives {
+ public:
+  explicit AcrossDrives(const Points& points)
+      : driven_(points.driven().find(*points.set)), projector_(points.driven_projector().find(*points.set)) {}
+  bool any(Index i) const { return driven_ && projector_ && (*driven_)[i] != 0; }
+  Vec operator()(Index i, const Vec& force) const {
+    return any(i) ? Vec(force - driven_part(*projector_, i, force)) : force;
+  }
+  void declare(Accesses& a) const {
+    if (driven_) a.reads(*driven_);
+    if (projector_) a.reads(*projector_);
+  }
+
+ private:
+  const Field<Index>* driven_;
+  const Field<Real>* projector_;  ///< null: no prescribed motion
+};
+
 /// Mean of the velocities before and after the coming kick, with which forces do exactly the work that the
 /// kinetic energy gains. Along the directions of prescribed motions the velocity after it is the prescribed
 /// one.

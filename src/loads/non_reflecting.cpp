@@ -31,7 +31,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
  public:
   /// `damping`: of each node of the world [M/T]
   WaveDampers(const std::map<Index, Matrix>& damping, World& world)
-      : points_(points_of(world.nodes)), at_(static_cast<std::size_t>(world.nodes.size()), -1) {
+      : points_(points_of(world.nodes)), across_(points_), at_(static_cast<std::size_t>(world.nodes.size()), -1) {
     for (const auto& [n, C] : damping) {
       at_[static_cast<std::size_t>(n)] = static_cast<Index>(nodes_.size());
       nodes_.push_back(n), damping_.push_back(C);
@@ -42,6 +42,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
+    across_.declare(a);
   }
   void start(World&, const Clock& clock) override { half_ = 0.5 * clock.dt_old; }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -53,8 +54,8 @@ class WaveDampers : public Constraint, public EnergyTerm {
       const Vec v = points_.v->vec(n), f = points_.f->vec(n);
       const Matrix more = Matrix::Identity() + half_ / (*points_.m)[n] * C;
       const Vec after = more.inverse() * (f - C * v);
-      force_[k] = after - f;
-      points_.f->set(n, after);
+      force_[k] = across_(n, after - f);
+      points_.f->set(n, f + force_[k]);
     }
   }
   void record(World&, const Clock& clock, EnergyLedger& ledger) override {
@@ -68,6 +69,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
 
  private:
   Points points_;
+  AcrossDrives across_;
   std::vector<Index> at_;  ///< of each node of the world its position below; -1: none
   std::vector<Index> nodes_;
   std::vector<Matrix> damping_;

@@ -33,12 +33,12 @@ inline const SharedField<Index> driven_axes{{.name = "driven_axes", .dimension =
 /// Points with a prescribed motion, for the coming step once its size is known: the projector on the
 /// directions along which motions act, xx yy zz xy yz zx, and the change of velocity that they cause [L/T].
 inline const SharedField<Real> driven_projector{
-    {.name = "driven_projector", .dimension = "-", .components = 6, .restart = false}};
+    {.name = "driven_projector", .dimension = "-", .components = 6}};
 inline const SharedField<Real> driven_change{
     {.name = "driven_change", .dimension = "L/T", .components = 3, .restart = false}};
 /// The same of rotations [1/T].
 inline const SharedField<Real> driven_rotation_projector{
-    {.name = "driven_rotation_projector", .dimension = "-", .components = 6, .restart = false}};
+    {.name = "driven_rotation_projector", .dimension = "-", .components = 6}};
 inline const SharedField<Real> driven_rotation_change{
     {.name = "driven_rotation_change", .dimension = "1/T", .components = 3, .restart = false}};
 /// Particles: acceleration towards a mirror that is not reversed behind it, as it should be; passes that add

@@ -22,6 +22,7 @@
 #include "rigid/bodies/node_inertias.hpp"
 #include "rigid/bodies/rigid.hpp"
 #include "rigid/bodies/rigid_cards.hpp"
+#include "rigid/bodies/uneven_loads.hpp"
 #include "rigid/switches/deformable_to_rigid.hpp"
 #include "state/step_share.hpp"
 #include "surfaces/skin.hpp"
@@ -202,7 +203,7 @@ class BodyBuilder {
                    "hold the body with CMO = 1, CON1 and CON2 of its *MAT_RIGID"},
                   b, diagnostics_);
     if (world_.dim == 2) in_plane(part, b);
-    refuse_different_loads(b);
+    refuse_uneven_loads(b, merges_, deck_, model_, world_, diagnostics_);
     if (!can_turn(b))
       diagnostics_.error(
           model_.parts[part].where,
@@ -298,32 +299,6 @@ class BodyBuilder {
     if (any) return join_mass(b, one);
     b.m = one.m, b.x = one.x, b.v = one.v, b.J0 = one.J0, b.L = one.L;
     any = true;
-  }
-
-  /// One body has one acceleration at its centre.
-  void refuse_different_loads(const RigidBody& b) {
-    const BodyAcceleration loads(model_.body_loads);
-    if (b.fixed() || !loads.by_parts()) return;
-    if (b.parts.size() > 1 && loads.on(b.parts).by_parts())
-      return deck_.error(diagnostics_, merges_.of(b.parts[1]).card, "",
-                         fmt::format("body loads act on some of the parts merged into part {} only", b.part),
-                         "let *LOAD_BODY_PARTS or *LOAD_GRAVITY_PART name all of them, or none");
-    std::vector<Index> bring_mass = b.parts;  // extra nodes belong to parts that deform
-    for (const Index n : b.nodes)
-      if (const Index part = world_.nodes.part[n]; part >= 0) bring_mass.push_back(part);
-    std::sort(bring_mass.begin(), bring_mass.end());
-    bring_mass.erase(std::unique(bring_mass.begin(), bring_mass.end()), bring_mass.end());
-    if (!loads.on(bring_mass).by_parts()) return;
-    const auto other = std::find_if(bring_mass.begin(), bring_mass.end(), [&](Index part) {
-      return loads.on(std::array{part, b.part_index}).by_parts();
-    });
-    if (other == bring_mass.end()) return;
-    diagnostics_.error(
-        model_.parts[b.part_index].where,
-        fmt::format("*PART {}: nodes of part {} give their mass to the rigid body, and body loads act on one "
-                    "of the two parts only",
-                    b.part, model_.parts[static_cast<std::size_t>(*other)].id),
-        "let *LOAD_BODY_PARTS or *LOAD_GRAVITY_PART name both parts, or none");
   }
 
   void add_extra_nodes(Index part, std::set<Index>& nodes, Member& member) {

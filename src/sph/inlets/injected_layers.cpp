@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sph/cards.hpp"
-#include "sph/inlets/inlet_flow.hpp"
 #include "sph/inlets/injection.hpp"
+#include "sph/inlets/inlet_flow.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "state/shared_fields.hpp"
 
@@ -116,18 +116,18 @@ class Layers {
               before = held ? behind(inlet, layer.number) : way(inlet, layer.number, v, t);
     inlet.layers = std::max(inlet.layers, layer.number + 1);
     for (const std::size_t n : row.places) {
-      const Vec& place = inlet.positions[n];
+      const Vec& position = inlet.positions[n];
       if (inlet.surface.on && !held && !takes_part(inlet, n, t, filled_[row.inlet][n])) continue;
       model_.sph.push_back({.node = static_cast<Index>(model_.nodes.size()),
                             .part = inlet.part,
                             .mass = -volume,
                             .card = inlet.card,
                             .spacing = inlet.is_lattice() ? 0 : std::max(inlet.spacing, inlet.cell)});
-      model_.nodes.push_back({.id = ++id_, .x = place - before, .v = v});
+      model_.nodes.push_back({.id = ++id_, .x = position - before, .v = v});
       out_.inlet_of.push_back(static_cast<Index>(row.inlet));
       out_.position.push_back(static_cast<Index>(n));
       if (has_surface_)
-        out_.head.push_back(inlet.surface.on && !held ? inlet.surface.head(place, t, inlet.part) : 0);
+        out_.head.push_back(inlet.surface.on && !held ? inlet.surface.head(position, t, inlet.part) : 0);
       ++inlet.particles;
     }
   }
@@ -141,7 +141,7 @@ class Layers {
     const Real before = number == 0 ? inlet.begin : inlet.rate.time_of(2 * half * number, inlet.begin);
     return inlet.v * row.factor * std::max(inlet.rate(t), 0.5 * half / (t - before));
   }
-  /// From where a particle of the layer stands at t = 0 to its place in the plane. [L]
+  /// From where a particle of the layer is at t = 0 to its position in the plane. [L]
   static Vec way(const Injection& inlet, Index number, const Vec& v, Real t) {
     if (!inlet.rate.steady()) return v * t;
     return v * inlet.begin + behind(inlet, number);
@@ -164,7 +164,7 @@ class Layers {
   Model& model_;
   Id id_ = 0;
   bool has_surface_ = false;
-  std::vector<std::vector<Real>> filled_;  ///< by inlet and place: shares of a particle that are due
+  std::vector<std::vector<Real>> filled_;  ///< by inlet and position: shares of a particle that are due
 };
 
 /// Water of the deck that stands where particles of an inlet come along.
@@ -172,7 +172,7 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
                        Diagnostics& diagnostics) {
   const Real near = 0.5 * inlet.spacing;
   Real width = 0;
-  for (const Vec& place : inlet.positions) width = std::max(width, (place - inlet.plane.point).norm());
+  for (const Vec& position : inlet.positions) width = std::max(width, (position - inlet.plane.point).norm());
   const Real length = inlet.reach;
   for (Index i = 0; i < particles; ++i) {
     const ModelNode& node =
@@ -181,8 +181,8 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
     if (!(upstream > 0 && upstream < length)) continue;
     const Vec x = node.x + inlet.v * (upstream / inlet.speed());  // where the flow takes it to the plane
     if ((x - inlet.plane.point).norm() > width + near) continue;
-    for (const Vec& place : inlet.positions) {
-      if ((x - place).norm() > near) continue;
+    for (const Vec& position : inlet.positions) {
+      if ((x - position).norm() > near) continue;
       return diagnostics.error(
           deck.where(inlet.card),
           fmt::format("{}: particle {} is {:.4g} [L] upstream of the inlet, where entering particles wait",
@@ -192,9 +192,10 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
   }
 }
 
-/// Two inlets at one place: columns upstream would overlap, or leave a gap, but where they are one column
+/// Two inlets at one position: columns upstream would overlap, or leave a gap, but where they are one column
 /// with pauses.
-void report_same_place(const Injection& a, const Injection& b, const Deck& deck, Diagnostics& diagnostics) {
+void report_same_position(const Injection& a, const Injection& b, const Deck& deck,
+                          Diagnostics& diagnostics) {
   const bool steady = a.rate.steady() && b.rate.steady() && a.factor == b.factor && !a.held.on && !b.held.on;
   const bool one_column = steady && a.v == b.v && (a.end <= b.begin || b.end <= a.begin);
   if (one_column) return;
@@ -302,7 +303,7 @@ Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& d
     model.parts[static_cast<std::size_t>(inlet.part)].has_sph = true;
   }
   for (std::size_t b = 1; b < out.inlets.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) report_same_place(out.inlets[a], out.inlets[b], deck, diagnostics);
+    for (std::size_t a = 0; a < b; ++a) report_same_position(out.inlets[a], out.inlets[b], deck, diagnostics);
   Layers layers(out, rows, model);
   for (const Layer& layer : layers_in_time(out.inlets, rows)) layers.add(layer);
   return out;
