@@ -62,12 +62,28 @@ class CableForces : public TwoNodeForces {
     return law_.held_until > 0 ? 0 : work;
   }
 
+  /// Of an elongation to `length`, where the force is F: along the law, which has a corner where the cable
+  /// becomes slack. The trapezoidal rule over that corner would hide energy that too long steps create.
+  Real work(Index e, Real t, Real length, Real F) const {
+    const Real before = force_[e];
+    if ((before > 0) == (F > 0) || law_.holds(t)) return 0.5 * (before + F) * (length - length_[e]);
+    Real slack = before > 0 ? length : length_[e], taut = before > 0 ? length_[e] : length;
+    const Real from = taut;
+    constexpr int halvings = 50;
+    for (int k = 0; k < halvings; ++k) {
+      const Real middle = 0.5 * (slack + taut);
+      (pull(e, t, middle) > 0 ? taut : slack) = middle;
+    }
+    const Real stored = 0.5 * std::max(before, F) * std::abs(from - taut);
+    return before > 0 ? -stored : stored;
+  }
+
   void advance(const World& world, const Clock& clock, Index begin, Index e) override {
     const Vec between = between_ends(world, e);
     const Real length = between.norm();
     const Real F = pull(e, clock.t, length);
     if (law_.holds(clock.t)) rest_[e] = length;
-    energy_[e] += 0.5 * (force_[e] + F) * (length - length_[e]);
+    energy_[e] += work(e, clock.t, length, F);
     force_[e] = F, length_[e] = length;
     const Vec along = length > 0 ? Vec(between / length) : Vec(Vec::Zero());
     for (int k = 0; k < 3; ++k)

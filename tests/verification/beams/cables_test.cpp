@@ -93,6 +93,7 @@ TEST(Cables, ASlackCablePullsOnceItIsTaut) {
   EXPECT_NEAR(pull_of(*s), std::sqrt(K * reduced), 1e-3 * std::sqrt(K * reduced));
   go_to_time(*s, 0.1 + half + 0.01);
   EXPECT_EQ(pull_of(*s), 0);
+  EXPECT_NEAR(of_cables(*s, "internal_energy")[0], 0, 1e-12) << "a slack cable stores nothing";
   // elastic: v1 = 2 m2/(m1 + m2), v2 = (m2 - m1)/(m1 + m2)
   EXPECT_NEAR(nodes.v.data(0)[0], 1.5, 1e-4);
   EXPECT_NEAR(nodes.v.data(0)[1], 0.5, 1e-4);
