@@ -6,6 +6,7 @@
 
 #include "contact/near.hpp"
 #include "parallel/parallel.hpp"
+#include "state/driven_points.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -19,15 +20,19 @@ constexpr Real closest = 0.1;
 
 struct Contact::Supports {
   /// What is left of a force on nodes or particles that is known after their supports: none along what they
-  /// hold, none at all where a curve drives it.
+  /// hold, nor along the directions in which curves drive it.
   class FreeAxes {
    public:
     explicit FreeAxes(const FieldSet& fields)
         : held_(shared_fields::held_axes.find(fields)),
-          driven_(shared_fields::prescribed_motion.find(fields)) {}
+          driven_(shared_fields::prescribed_motion.find(fields)),
+          projector_(shared_fields::driven_projector.find(fields)) {}
     bool is_driven(Index i) const { return driven_ && (*driven_)[i]; }
     Vec part_of(Vec force, Index i) const {
-      if (is_driven(i)) return Vec::Zero();
+      if (is_driven(i)) {
+        if (!projector_) return Vec::Zero();
+        force -= driven_part(*projector_, i, force);
+      }
       for (int k = 0; held_ && k < 3; ++k)
         if ((*held_)[i] & (1 << k)) force[k] = 0;
       return force;
@@ -35,6 +40,7 @@ struct Contact::Supports {
 
    private:
     const Field<Index>*held_, *driven_;
+    const Field<Real>* projector_;  ///< on the directions of the last step
   };
   FreeAxes particles, nodes;
 

@@ -153,7 +153,7 @@ void set_pressures(const Deck& deck, const Model& model, World& world, Diagnosti
   if (diagnostics.ok()) set_initial_pressures(deck, model, materials, world, diagnostics);
   if (diagnostics.ok()) set_inlet_pressures(injections, deck, model, materials, world, diagnostics);
   if (!diagnostics.ok()) return;
-  add_burn(world, deck, model);
+  add_burn(world, deck, model, diagnostics);
   add_equations_of_state(world, model, materials, settings);
 }
 

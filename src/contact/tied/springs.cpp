@@ -189,8 +189,12 @@ class TiedSprings : public Force, public EnergyTerm, public InterfaceReporter, p
     const Field<Real>& x = world.nodes.x;
     const Vec away = x.vec(tie.node) - place_of(tie.at, x);
     const bool face_is_gone = eroded_ && (*eroded_)[tie.segment] != 0;
-    if (!onset_.empty() && onset_[t] > 0 && !face_is_gone) return soften(t, away, x);
-    if (law_.cohesive.holds() && !face_is_gone) return open(t, away, x);
+    const bool softens = !onset_.empty() && onset_[t] > 0;
+    if (softens || law_.cohesive.holds()) {
+      softens ? soften(t, away, x) : open(t, away, x);
+      now.breaks = now.breaks || face_is_gone;
+      return;
+    }
     now.force = -tie.k * away;
     now.stored = 0.5 * tie.k * away.squaredNorm();
     now.on = on_corners(tie.at, x, -now.force);

@@ -173,7 +173,11 @@ struct MatSpringInelastic : MatSpringInelasticFields {
                         "give magnitudes from 0 on: CTF states whether they are of compression or tension");
       return nullptr;
     }
-    return std::make_shared<Inelastic>(*force, ku, ctf == -1 ? 1 : -1);
+    auto law = std::make_shared<Inelastic>(*force, ku, ctf == -1 ? 1 : -1);
+    if (law->unload > 0) return law;
+    reader.deck.error(reader.diagnostics, *this, "KU", "a level curve gives no stiffness to unload with",
+                      "give KU");
+    return nullptr;
   }
 };
 

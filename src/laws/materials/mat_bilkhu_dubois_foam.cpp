@@ -165,6 +165,9 @@ void MatBilkhuDuboisFoam::check_curves(const Deck& deck, const Model& model, Dia
            "curves go on straight beyond their ends: let it end level");
     if (std::string(field) == "LCRATE" && x.front() > 0 && y[1] > y[0])
       fail(field, fmt::format("curve {} falls below its first point, to below 0", id), "let it begin at 0");
+    if (std::string(field) != "LCRATE" && x.front() > 0 &&
+        !(y.front() - x.front() * (y[1] - y[0]) / (x[1] - x[0]) > 0))
+      fail(field, fmt::format("curve {} falls below its first point, to below 0", id), "let it begin at 0");
     if (std::string(field) != "LCRATE" && x.front() < 0)
       fail(field, fmt::format("curve {} begins below 0: yield stresses in tension are not supported", id),
            "tension is limited by PC, VPC, TSC and VTSC");

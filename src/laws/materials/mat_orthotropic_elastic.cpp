@@ -116,6 +116,7 @@ class OrthotropicInSolids : public Orthotropic {
  public:
   using Orthotropic::Orthotropic;
   bool in_sheets() const override { return false; }
+  Real sound_speed() const override { return fastest(); }
   std::vector<HistoryVariable> history() const override { return {{material_directions, "-", 6}}; }
   void update(const PointBlock& block) const override {
     constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};

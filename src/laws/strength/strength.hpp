@@ -81,7 +81,7 @@ class StrengthLaw {
   /// Of a fluid, for the stable step. [M/LT]
   virtual Real viscosity() const { return 0; }
   /// Of compression waves at rest: sqrt((K + 4G/3)/RO). [L/T]
-  Real sound_speed() const;
+  virtual Real sound_speed() const;
   Real ro = 0;                 ///< reference density [M/L3]
   bool bulk_viscosity = true;  ///< whether that of *CONTROL_BULK_VISCOSITY acts, in solids
   int failing_layers = 0;      ///< points through the thickness that must fail to delete a shell; 0: all

@@ -131,13 +131,13 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
       lost += bodies_.force().dot(v) * dt + bodies_.friction_loss(world, clock, v) + released_;
       released_ = 0;
     }
-    for (std::size_t s = 0; s < sets_.size(); ++s)
+    for (std::size_t s = 0; s < sets_.size(); ++s) {
+      const MiddleVelocity v(sets_[s].points, clock);
       lost -= sum(static_cast<Index>((*near_)[s].size()), [&](Index k) {
         const Index i = point(s, k);
-        const Points& p = sets_[s].points;
-        const Vec v = p.v->vec(i) + p.f->vec(i) * (0.5 * dt / (*p.m)[i]);
-        return sets_[s].push.vec(i).dot(v) * dt;
+        return sets_[s].push.vec(i).dot(v(i)) * dt;
       });
+    }
     lost_ += lost, impulse_ += force_ * dt;
     ledger.dissipated += lost, ledger.throughput += std::abs(lost);
     ledger.external_work += work, ledger.throughput += std::abs(work);

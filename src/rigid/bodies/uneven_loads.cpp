@@ -18,7 +18,9 @@ void refuse_uneven_loads(const RigidBody& b, const BodyMerges& merges, const Dec
                       "let *LOAD_BODY_PARTS or *LOAD_GRAVITY_PART name all of them, or none");
   std::vector<Index> bring_mass = b.parts;  // extra nodes belong to parts that deform
   for (const Index n : b.nodes)
-    if (const Index part = world.nodes.part[n]; part >= 0) bring_mass.push_back(part);
+    if (const Index part = world.nodes.part[n];
+        part >= 0 && std::find(b.unweighed.begin(), b.unweighed.end(), n) == b.unweighed.end())
+      bring_mass.push_back(part);
   std::sort(bring_mass.begin(), bring_mass.end());
   bring_mass.erase(std::unique(bring_mass.begin(), bring_mass.end()), bring_mass.end());
   const auto other = std::find_if(bring_mass.begin(), bring_mass.end(), [&](Index part) {

@@ -18,6 +18,7 @@
 #include "rigid/bodies/rigid_cards.hpp"
 #include "rigid/switches/body_for_a_while.hpp"
 #include "rigid/switches/switched_parts.hpp"
+#include "state/reports.hpp"
 #include "state/shared_fields.hpp"
 
 namespace courant {
@@ -108,6 +109,8 @@ class WeldReader {
       : deck_(deck), model_(model), world_(world), diagnostics_(diagnostics) {
     for (Index n = 0; n < world.nodes.size(); ++n) node_of_id_[world.nodes.id[n]] = n;
     for (const ModelNode& node : model.nodes) held_[node.id] = is_constrained(model, node);
+    for (const ModelInertia& one : model.inertias)
+      if (one.turns()) heavy_.insert(model.nodes[static_cast<std::size_t>(one.node)].id);
   }
 
   void add(const SpotweldCard& card) {
@@ -124,6 +127,10 @@ class WeldReader {
     add(card, "NSID", "EPSF", ids);
   }
   void finish() {
+    if (!world_.passes.all<const RigidWallReporter>().empty() && !welds_.empty())
+      deck_.warning(diagnostics_, *first_, "",
+                    "rigid walls stop the nodes of a weld one by one: the weld gets a little behind them",
+                    "leave SN, SS and the time of failure blank where a weld meets a wall");
     if (!welds_.empty() && diagnostics_.ok())
       world_.passes.add(std::make_shared<FailingWelds>(std::move(welds_), world_));
   }
@@ -139,6 +146,10 @@ class WeldReader {
       return error(card, of_strain,
                    fmt::format("failure at a plastic strain ('{:g}') is not supported", card.ep),
                    "leave the field blank, or tie the nodes by *CONSTRAINED_TIED_NODES_FAILURE");
+    if (model_.phase == RunPhase::relaxation)
+      return error(
+          card, field, "welds that fail are not supported beside a dynamic relaxation",
+          "leave SN, SS and the time of failure blank, or start from the relaxed state by a restart");
     if (world_.dim == 2)
       return error(card, field, "welds that fail are not supported in plane scenes",
                    "leave SN, SS and TF blank");
@@ -161,6 +172,7 @@ class WeldReader {
     if (weld.b.nodes.size() < 2)
       return error(card, field, "the same node twice", "a weld is between two nodes");
     if (!check_strength(card, field, weld)) return;
+    if (!first_) first_ = &card;
     weld.b.name = fmt::format("weld of nodes {} and {}", ids[0], ids[1]);
     welds_.push_back(std::move(weld));
   }
@@ -179,13 +191,14 @@ class WeldReader {
   }
   const char* why_not(Index n) const {
     const auto* driven = shared_fields::prescribed_motion.find(world_.nodes.fields);
-    return world_.nodes.follow[n] == 1    ? "goes with a rigid body"
-           : world_.nodes.follow[n] == 2  ? "is tied to a face"
-           : held_.at(world_.nodes.id[n]) ? "is held by SPC"
-           : driven && (*driven)[n] != 0  ? "is driven by a prescribed motion"
-           : taken_.contains(n)           ? "belongs to another weld that fails"
-           : !(world_.nodes.m[n] > 0)     ? "has no mass"
-                                          : nullptr;
+    return world_.nodes.follow[n] == 1           ? "goes with a rigid body"
+           : world_.nodes.follow[n] == 2         ? "is tied to a face"
+           : held_.at(world_.nodes.id[n])        ? "is held by SPC"
+           : driven && (*driven)[n] != 0         ? "is driven by a prescribed motion"
+           : heavy_.contains(world_.nodes.id[n]) ? "has an inertia by *ELEMENT_INERTIA"
+           : taken_.contains(n)                  ? "belongs to another weld that fails"
+           : !(world_.nodes.m[n] > 0)            ? "has no mass"
+                                                 : nullptr;
   }
 
   const Deck& deck_;
@@ -194,7 +207,9 @@ class WeldReader {
   Diagnostics& diagnostics_;
   std::map<Id, Index> node_of_id_;
   std::map<Id, bool> held_;
+  std::set<Id> heavy_;
   std::set<Index> taken_;
+  const Entry* first_ = nullptr;  ///< card of the first weld
   std::vector<FailingWeld> welds_;
 };
 

@@ -52,15 +52,23 @@ void check_switches(const Deck& deck, const World& world, Diagnostics& diagnosti
                            card.of_wall() ? "rigid wall" : "contact", card.entno),
                "give the number of one that is there");
   }
+  const auto& cards = deck.all<AutomaticSwitch>();
+  const Location where = cards.empty() ? Location{deck.files[0].name} : deck.where(cards.front());
+  std::map<Index, const SwitchedNodes*> taken;
   for (const auto* switched : world.passes.all<SwitchedNodes>())
-    for (const std::vector<Index>& body : switched->nodes_of_bodies())
-      if (const std::string why = joined_to_others(body, world); !why.empty()) {
-        const auto& cards = deck.all<AutomaticSwitch>();
+    for (const std::vector<Index>& body : switched->nodes_of_bodies()) {
+      if (const std::string why = joined_to_others(body, world); !why.empty())
         return diagnostics.error(
-            cards.empty() ? Location{deck.files[0].name} : deck.where(cards.front()),
-            "parts that become rigid for a while: " + why + ", so that its part cannot become rigid",
-            "leave the part out of the switch, or tie it with _OFFSET");
-      }
+            where, switched->name() + ": " + why + ", so that it cannot be part of a rigid body for a while",
+            "leave the part out of the switch or the node out of the weld, or tie it with _OFFSET");
+      for (const Index n : body)
+        if (const auto before = taken.try_emplace(n, switched).first->second; before != switched)
+          return diagnostics.error(
+              where,
+              fmt::format("node {} belongs to {} and to {}", world.nodes.id[n], before->name(),
+                          switched->name()),
+              "leave the part out of the switch, or SN, SS and the time of failure blank");
+    }
 }
 
 }  // namespace courant

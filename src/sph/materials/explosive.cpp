@@ -81,12 +81,22 @@ void MatHighExplosive::check(const Deck& deck, Diagnostics& diagnostics) const {
                "leave K, G and SIGY blank");
 }
 
-void add_burn(World& world, const Deck& deck, const Model& model) {
+void add_burn(World& world, const Deck& deck, const Model& model, Diagnostics& diagnostics) {
   std::vector<const MatHighExplosive*> of_part(model.parts.size(), nullptr);
   bool any = false;
   for (std::size_t k = 0; k < of_part.size(); ++k)
     for (const MatHighExplosive& m : deck.all<MatHighExplosive>())
       if (model.parts[k].has_sph && m.mid == model.parts[k].mid) of_part[k] = &m, any = true;
+  for (const InitialDetonation& point : deck.all<InitialDetonation>()) {
+    const auto part = model.part_of_id.find(point.pid);
+    if (point.pid == 0 ? any
+                       : part != model.part_of_id.end() && of_part[static_cast<std::size_t>(part->second)])
+      continue;
+    deck.error(diagnostics, point, "PID",
+               point.pid == 0 ? std::string("the deck has no explosive that burns")
+                              : fmt::format("part {} is no explosive of particles", point.pid),
+               "name a part with *MAT_HIGH_EXPLOSIVE_BURN, or 0 for all of them");
+  }
   if (!any) return;
   Particles& p = world.particles;
   Field<Real>& share = burn_fraction.add(p.fields);

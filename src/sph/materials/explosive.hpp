@@ -19,6 +19,6 @@ struct MatHighExplosive : MatHighExplosiveFields {
 };
 
 /// Adds the field of explosives, and the pass that advances it, where there are any.
-void add_burn(World& world, const Deck& deck, const Model& model);
+void add_burn(World& world, const Deck& deck, const Model& model, Diagnostics& diagnostics);
 
 }  // namespace courant
