@@ -78,12 +78,13 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
       const Injection& inlet = inlets_[static_cast<std::size_t>(inlet_[i])];
       p.v.set(i, flow_->path->vec(i) * states_[static_cast<std::size_t>(inlet_[i])].u);
       if (position_[i] < 0)
-        set_pressure(world, i, clock.t);
+        set_pressure(world, i, std::max(clock.t, inlet.begin));
       else if ((inlet.plane.point - p.x.vec(i)).dot(inlet.plane.normal) <= inlet.reach)
         undecided.push_back(i);
     }
     std::sort(undecided.begin(), undecided.end(), [&](Index a, Index b) { return p.id[a] < p.id[b]; });
-    for (const Index i : undecided) decide(world, i, clock.t);
+    for (const Index i : undecided)
+      decide(world, i, std::max(clock.t, inlets_[static_cast<std::size_t>(inlet_[i])].begin));
   }
 
   void keep(Archive& archive) override {
@@ -118,13 +119,14 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
   /// mean of the flow: a surface held at each moment gives them energy, and they grow before a gate.
   Real head(std::size_t k, Real t) const {
     const Injection& inlet = inlets_[k];
-    const Real slow = states_[k].slow;
-    return level(inlet, t) + (inlet.held.energy ? 0 : slow * slow / (2 * gravity(inlet, t)));
+    const Real slow = states_[k].slow, g = gravity(inlet, t);
+    return level(inlet, t) + (inlet.held.energy || !(g > 0) ? 0 : slow * slow / (2 * g));
   }
   /// By which the surface at the inlet is below the level. [L]
   Real drop(std::size_t k, Real t) const {
     const Injection& inlet = inlets_[k];
-    return level(inlet, t) - depth_at_inlet(head(k, t), states_[k].u, gravity(inlet, t));
+    const Real g = gravity(inlet, t);
+    return g > 0 ? level(inlet, t) - depth_at_inlet(head(k, t), states_[k].u, g) : 0;
   }
 
   Real wanted(std::size_t k, Real t) const {
@@ -136,7 +138,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
   void advance(std::size_t k, World& world, Real t, Real dt) {
     const Injection& inlet = inlets_[k];
     Real& u = states_[k].u;
-    if (t < inlet.begin || t >= inlet.end) {
+    if (t < inlet.begin || t >= inlet.end || !(gravity(inlet, t) > 0)) {
       u = 0;
       return;
     }
@@ -152,9 +154,10 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     const Real g = gravity(inlet, t), energy = head(k, t);
     Real& u = states_[k].u;
     if (u < 0) u = 0, ++world.counters["inlet_held_back"];
-    const Real depth = depth_at_inlet(energy, u, g);
-    const Real most = std::min({critical_velocity(energy, g), inlet.held.fastest,
-                                inlet.held.most / (inlet.held.width(world.dim) * depth)});
+    const Real critical = critical_velocity(energy, g),
+               depth = depth_at_inlet(energy, std::min(u, critical), g);
+    const Real most =
+        std::min({critical, inlet.held.fastest, inlet.held.most / (inlet.held.width(world.dim) * depth)});
     if (u > most) u = most, ++world.counters["inlet_at_its_limit"];
   }
 
@@ -165,7 +168,7 @@ class HeldLevels : public Motion, public Refresh, public Restartable {
     for_each_block(active, [&](Index begin, Index end) { measure(world.particles, 0, begin, end); });
     reduce(world);
     for (std::size_t k = 0; k < inlets_.size(); ++k) {
-      if (!inlets_[k].held.on || t < inlets_[k].begin) continue;
+      if (!inlets_[k].held.on || t < inlets_[k].begin || !(gravity(inlets_[k], t) > 0)) continue;
       states_[k].slow = states_[k].mean;
       states_[k].u = wanted(k, t);
       limit(k, world, t);

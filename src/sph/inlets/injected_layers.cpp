@@ -53,7 +53,7 @@ Real lead(const Injection& inlet, const Row& row) {
 Real layers_of(const Injection& inlet, const Row& row, Real endtim, Real most) {
   if (inlet.held.on) {
     const Real flows = std::max(Real(0), std::min(inlet.end, endtim) - inlet.begin) * inlet.held.fastest;
-    return std::ceil((row.factor * flows + inlet.reach) / inlet.spacing) + 1;
+    return std::floor((row.factor * flows + inlet.reach) / inlet.spacing + 0.5);
   }
   const Real last = std::min(inlet.end, endtim + lead(inlet, row));
   if (inlet.rate.steady()) {

@@ -48,6 +48,13 @@ class InflowReader {
         for (Injection& inlet : inlets_)
           if (is_of_part(inlet)) complete(card, inlet);
     }
+    for (const CourantInflow& card : deck_.all<CourantInflow>())
+      if (static_cast<SurfaceChoice>(card.surf) == SurfaceChoice::held &&
+          std::any_of(inlets_.begin(), inlets_.end(),
+                      [](const Injection& inlet) { return !inlet.held.on; }) &&
+          diagnostics_.ok())
+        refuse(card, "SURF", "3 beside inlets that hold no level is not supported",
+               "let all inlets hold a level, or none");
   }
 
  private:
@@ -72,6 +79,8 @@ class InflowReader {
     if (surf == SurfaceChoice::none && card.lclev != 0)
       refuse(card, "LCLEV", "without a surface it has no level", "give SURF 1, 2 or 3");
     if (card.lclev != 0) curve_of(card, "LCLEV", card.lclev);
+    if (profile == Profile::curve && surf == SurfaceChoice::held)
+      refuse(card, "PROF", "a curve with a held level is not supported", "give PROF 0, 1 or 2");
     if (profile == Profile::logarithmic && !(card.ks > 0))
       refuse(card, "KS", "PROF 2 needs the roughness", "of a smooth bed it is 3.3 nu/u*");
     if (profile != Profile::logarithmic && card.ks > 0)
