@@ -10,6 +10,7 @@ import numpy as np
 from ..key_tables import keys as keys_of_map
 from ..yaml_map import Node, is_list, is_map
 from .materials import Material
+from .merger import Merger
 from .meshes import Mesh, divided
 from .numbers import number_text
 from .placeholders import substitute
@@ -167,14 +168,12 @@ def beam_mesh(lines: list[np.ndarray], size: float) -> Mesh:
     x = np.concatenate(points)
     cells = np.concatenate([start + np.column_stack([np.arange(len(one) - 1), np.arange(1, len(one))]) for start, one in zip(starts, points)])
     tiny = _SAME * float(np.ptp(x, axis=0).max())
-    _, first, number = np.unique(np.round((x - x.min(axis=0)) / (2 * tiny)).astype(np.int64), axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # nodes in the order of the lines
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    number = rank[number.ravel()]
+    merger = Merger(2 * tiny)  # nodes in the order of the lines
+    number = merger.numbers(x - x.min(axis=0))
+    nodes = np.array(merger.points) + x.min(axis=0)
     cells = number[cells]
     _, once = np.unique(np.sort(cells, axis=1), axis=0, return_index=True)
-    made = Mesh(x[first[order]], cells[np.sort(once)], "beam")
+    made = Mesh(nodes, cells[np.sort(once)], "beam")
     if len(lines) == 1 and number[0] != number[len(x) - 1]:
         made.groups = {"start": number[:1], "end": number[len(x) - 1 :]}
     return made

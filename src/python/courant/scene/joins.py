@@ -59,9 +59,20 @@ def _longest(mesh: Mesh) -> float:
     return float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
 
 
+def _meets(join: Join, other: Structure) -> bool:
+    """Whether all nodes of a join are at nodes of the other part, both of beams or shells."""
+    if other.mesh.kind not in (BEAMS, SHELLS) or join.made.mesh.kind not in (BEAMS, SHELLS):
+        return False
+    tiny = _SAME * _longest(other.mesh)
+    return all(float(np.linalg.norm(other.mesh.points - join.made.mesh.points[node], axis=1).min()) <= tiny for node in join.nodes.tolist())
+
+
 def _tie(reader: BasinReader, join: Join, other: Structure) -> None:
     """Nodes at those of beams and shells are the same node; others go with the nearest element."""
     mesh, size = other.mesh, _longest(other.mesh)
+    if reader.dim == 2 and not _meets(join, other):
+        reader.error(join.to, f"join: in the plane the nodes must be at nodes of '{other.title}', both of beams or shells", "let both parts meet at nodes, or make the scene three-dimensional")
+        return
     centres = mesh.points[mesh.cells].mean(axis=1)
     for node in join.nodes.tolist():
         x = join.made.mesh.points[node]
@@ -81,10 +92,16 @@ def _tie(reader: BasinReader, join: Join, other: Structure) -> None:
 
 
 def tie_cards(first_set: int, ties: list[tuple[int, list[int]]]) -> str:
-    """*CONSTRAINED_NODAL_RIGID_BODY of each node and the nodes that it goes with, by their ids."""
+    """*CONSTRAINED_NODAL_RIGID_BODY of each node and the nodes that it goes with, by their ids; ties with common nodes are one body."""
     out = ""
-    for k, (node, others) in enumerate(ties):
-        ids = [node, *others]
+    bodies = list[list[int]]()
+    for node, others in ties:
+        joined = [node, *others]
+        for body in [body for body in bodies if not set(body).isdisjoint(joined)]:
+            bodies.remove(body)
+            joined = [*body, *(one for one in joined if one not in body)]
+        bodies.append(joined)
+    for k, ids in enumerate(bodies):
         out += f"*SET_NODE_LIST\n$#     sid\n{first_set + k:10}\n" + "".join("".join(f"{one:10}" for one in ids[at : at + 8]) + "\n" for at in range(0, len(ids), 8))
         out += f"*CONSTRAINED_NODAL_RIGID_BODY\n$#     pid       cid      nsid\n{first_set + k:10}         0{first_set + k:10}\n"
     return out

@@ -218,15 +218,15 @@ def of_cells(whole: Cells, group: str = "", lines: bool = False) -> Mesh | None:
 
 
 def with_one_node_a_point(mesh: Mesh) -> Mesh:
-    """Shells of a surface, whose faces may each have vertices of their own; shells that vanish with them, or are there twice, go."""
+    """Shells of a surface, or beams, which may each have vertices of their own; elements that vanish with them, or are there twice, go."""
     tiny = 1e-6 * float(np.max(mesh.high - mesh.low))
     _, first, number = np.unique(np.round((mesh.points - mesh.low) / tiny).astype(np.int64), axis=0, return_index=True, return_inverse=True)
     cells = number.ravel()[mesh.cells]
-    kept = np.array([len(set(row)) > 2 for row in cells.tolist()], dtype=bool)
+    kept = np.array([len(set(row)) > min(2, cells.shape[1] - 1) for row in cells.tolist()], dtype=bool)
     _, once = np.unique(np.sort(cells[kept], axis=1), axis=0, return_index=True)
     rows = np.flatnonzero(kept)[np.sort(once)]
     notes = [f"{len(mesh.points) - len(first)} duplicate vertices merged"] if len(first) < len(mesh.points) else []
-    notes += [f"{len(cells) - len(rows)} faces without area, or that are there twice, left out"] if len(rows) < len(cells) else []
+    notes += [f"{len(cells) - len(rows)} {'faces without area' if cells.shape[1] > 2 else 'lines without length'}, or that are there twice, left out"] if len(rows) < len(cells) else []
     groups = {name: np.unique(number.ravel()[nodes]) for name, nodes in mesh.groups.items()}
     return Mesh(mesh.points[first], cells[rows], mesh.name, [*mesh.notes, *notes], mesh.name_of_kind, groups)
 

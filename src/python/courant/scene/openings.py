@@ -136,6 +136,11 @@ def _read_channel(reader: BasinReader, node: Node, basin: Basin) -> None:
     for key in ("at", "direction", "width", "radius", "sides"):
         if (entry := reader.get(node, key)) is not None:
             reader.error(entry, f"'{key}' does not go with 'side' and 'depth', which give it", _OF_CHANNEL)
+    for key in ("level", "head"):
+        if (entry := reader.get(node, key)) is not None:
+            reader.error(entry, f"'{key}' is held by an inlet with 'at', 'direction' and 'width'; an inlet with 'side' has a depth and a speed",
+                         "- {at: [0, 0.1], direction: [1, 0], width: 0.2, level: 0.2}")
+            return
     entry = reader.get(node, "side")
     ends = {"left": (0, 0), "right": (0, 1)} | ({"front": (1, 0), "back": (1, 1)} if basin.dim == 3 else {})
     side = reader.text(entry) if entry is not None else ""

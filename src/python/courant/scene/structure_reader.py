@@ -223,6 +223,10 @@ def _of_file(reader: BasinReader, node: Node, entry: Node, kind: str, basin: Bas
                 shape = sound(surface_of(part), closed=True, close=True)
                 made = Mesh(shape.points, shape.faces[:, [0, 1, 2, 2]], notes=list(shape.notes))
             made = meshes.with_one_node_a_point(made)
+        elif beams:
+            made = meshes.with_one_node_a_point(made)
+            if reader.dim == 2 and np.ptp(made.points[:, 2]) > 0:
+                return reader._refuse(entry, "a structure: lines of a scene in the plane have one z", _EXAMPLE)  # type: ignore[no-any-return]
     except MissingModule as fault:
         return reader._refuse(entry, str(fault), "a surface with a 'thickness' is of shells" if "gmsh" in str(fault) else "")  # type: ignore[no-any-return]
     except ShapeFault as fault:
