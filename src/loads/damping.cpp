@@ -151,17 +151,21 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     for (const Damping& d : damping_)
       constants_.push_back(d.at(clock.t) * (points_.turns ? d.turn_scale : d.scale));
     half_ = 0.5 * clock.dt_old;
+    if (across_.any()) taken_.resize(static_cast<std::size_t>(points_.fields().size()), Vec::Zero());
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     for (Index i = begin; i < end; ++i) {
       if (points_.follow && (*points_.follow)[i]) continue;
       const Vec D = constant(i);
-      const Vec before = across_.any(i) ? points_.f->vec(i) : Vec(Vec::Zero());
+      const bool driven = across_.any(i);
+      const Vec before = driven ? points_.f->vec(i) : Vec(Vec::Zero());
       for (int k = 0; k < 3; ++k) {
         Real& f = points_.f->data(k)[i];
         f = (f - D[k] * (*points_.m)[i] * points_.v->data(k)[i]) / (1 + D[k] * half_);
       }
-      if (across_.any(i)) points_.f->set(i, before + across_(i, points_.f->vec(i) - before));
+      if (!driven) continue;
+      taken_[static_cast<std::size_t>(i)] = across_(i, points_.f->vec(i) - before);
+      points_.f->set(i, before + taken_[static_cast<std::size_t>(i)]);
     }
   }
 
@@ -178,7 +182,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
       if (points_.follow && (*points_.follow)[i]) return 0;
       const Vec D = constant(i);
       const Vec force = D.cwiseProduct((*points_.m)[i] * points_.v->vec(i) + half_ * points_.f->vec(i));
-      return across_(i, force).dot(v(i)) * clock.dt_mean();
+      return (across_.any(i) ? Vec(-taken_[static_cast<std::size_t>(i)]) : force).dot(v(i)) * clock.dt_mean();
     });
     ledger.dissipated += lost;
     ledger.throughput += std::abs(lost);
@@ -202,6 +206,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
   std::vector<Damping> damping_;
   Points points_;
   AcrossDrives across_;
+  std::vector<Vec> taken_;  ///< of driven points: what damping added to their forces [ML/T2]
   bool by_parts_ = false;
   const Field<Index>* held_axes_ = nullptr;  ///< null: there are none
   std::vector<Vec> constants_;               ///< of each of them now [1/T]

@@ -12,7 +12,8 @@ class AcrossDrives {
  public:
   explicit AcrossDrives(const Points& points)
       : driven_(points.driven().find(*points.set)), projector_(points.driven_projector().find(*points.set)) {}
-  bool any(Index i) const { return driven_ && projector_ && (*driven_)[i] != 0; }
+  bool any() const { return driven_ && projector_; }
+  bool any(Index i) const { return any() && (*driven_)[i] != 0; }
   Vec operator()(Index i, const Vec& force) const {
     return any(i) ? Vec(force - driven_part(*projector_, i, force)) : force;
   }

@@ -31,7 +31,9 @@ class WaveDampers : public Constraint, public EnergyTerm {
  public:
   /// `damping`: of each node of the world [M/T]
   WaveDampers(const std::map<Index, Matrix>& damping, World& world)
-      : points_(points_of(world.nodes)), across_(points_), at_(static_cast<std::size_t>(world.nodes.size()), -1) {
+      : points_(points_of(world.nodes)),
+        across_(points_),
+        at_(static_cast<std::size_t>(world.nodes.size()), -1) {
     for (const auto& [n, C] : damping) {
       at_[static_cast<std::size_t>(n)] = static_cast<Index>(nodes_.size());
       nodes_.push_back(n), damping_.push_back(C);

@@ -161,7 +161,7 @@ class Reader {
               fmt::format("node {} of set {} is {:.4g} [L] off the plane through node {} with normal ({:g}, "
                           "{:g}, {:g})",
                           node(n).id, c.nsid, off, node(nodes[0]).id, normal[0], normal[1], normal[2]),
-              c.cid == 0 ? "without CID the plane is orthogonal on the velocity" : "");
+              c.cid == 0 ? "without CID the plane is normal to the velocity" : "");
         return false;
       }
       if (particles.contains(n)) {
@@ -248,7 +248,7 @@ class Reader {
     return nullptr;
   }
 
-  /// In 2D the plane of an inlet stands orthogonal on that of the particles.
+  /// In 2D the plane of an inlet is normal to that of the particles.
   bool is_upright(const Entry& card, const Vec& normal) {
     if (dim_ == 3 || std::abs(normal[2]) < in_plane) return true;
     error(card, "CID", "in 2D the normal of the inlet must lie in the plane z = constant",

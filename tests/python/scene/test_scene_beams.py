@@ -44,6 +44,19 @@ def test_lines_share_nodes_where_they_meet() -> None:
     assert len(alone.cells) == 16 and alone.points[alone.groups["start"]].tolist() == [[3, 0, 0]] and alone.points[alone.groups["end"]].tolist() == [[2, 0, 0]]
 
 
+@pytest.mark.parametrize(("across", "at"), [(6.4, 0.62), (1.0, 1 / 3), (1.0, 0.333333)])
+def test_a_line_that_ends_on_another_one_joins_it(across: float, at: float) -> None:
+    mesh = beam_mesh([np.array([[0, 0, 0], [6.0, 0, 0]]), np.array([[at, 0, 0], [at, 0, across]])], 0.5)
+    assert (np.bincount(mesh.cells.ravel()) == 3).sum() == 1 and (np.bincount(mesh.cells.ravel()) == 1).sum() == 3
+
+
+def test_ties_with_a_common_node_are_one_body() -> None:
+    scene = courant.Scene("legs", end=0.1).structure(title="block", box={"low": [0.9, -0.1, -0.1], "high": [1.1, 0.1, 0.1]}, material="steel", size=0.2, fix="bottom")
+    for leg in ([[1, 0, 0.1], [1, 0, 1]], [[1, 0, 0.1], [1, 1, 1]]):
+        scene.structure(beam=leg, section=RECTANGLE, material="steel", join={"start": "block"})
+    assert str(scene.deck()).count("*CONSTRAINED_NODAL_RIGID_BODY") == 1
+
+
 @pytest.mark.parametrize(("keys", "text"), [
     ({"section": None}, "'section' is missing: a beam has one"), ({"section": {"rod": 0.1, "cable": 1}}, "section: expected one of rod, tube, rectangle, cable, got rod and cable"),
     ({"section": {"tube": [0.02, 0.01]}}, "tube: its wall of 0.01 is as thick as half of the diameter 0.02"),

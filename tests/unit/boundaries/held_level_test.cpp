@@ -10,6 +10,7 @@
 #include "sph/inlets/held_level.hpp"
 
 namespace courant {
+namespace held_level_test {
 namespace {
 
 constexpr Real g_held = 9.81;
@@ -182,4 +183,5 @@ TEST(HeldLevel, HasTheSameBitsOnAnyNumberOfThreads) {
 }
 
 }  // namespace
+}  // namespace held_level_test
 }  // namespace courant
