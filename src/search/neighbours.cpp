@@ -44,8 +44,7 @@ class Neighbours::Watch : public Preparation {
     }
     looked_ = false;
     const bool due = lists_.first_due_ < lists_.due_.size() && lists_.due_[lists_.first_due_] <= clock.t;
-    return due || lists_.flow_is_due() || std::find(stale_.begin(), stale_.end(), 1) != stale_.end() ||
-           lists_.nodes_moved(world);
+    return due || std::find(stale_.begin(), stale_.end(), 1) != stale_.end() || lists_.nodes_moved(world);
   }
   /// Since the lists were built [L]
   Real largest_move() const {
@@ -102,11 +101,10 @@ void Neighbours::adapt_skin(Real least, Real most, Real weight) {
 }
 
 void Neighbours::set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet,
-                            const Field<Real>& start, std::shared_ptr<const InletFlow> flow) {
+                            const Field<Real>& start) {
   inlets_ = std::move(planes);
   inlet_ = &inlet;
   start_ = &start;
-  flow_ = std::move(flow);
 }
 
 /// Where it is now. Particles that MAXV switched off are not asked about.
@@ -117,9 +115,9 @@ bool Neighbours::is_solved_for(const Particles& p, Index i) const {
 }
 
 /// How long until a particle at x that is not solved for, with constant velocity, can be within `reach` of
-/// where it would be [T]; for one that follows the flow of its inlet, the displacement of that [L].
+/// where it would be. [T]
 Real Neighbours::time_to_reach(const Particles& p, Index i, const Vec& x, Real reach) const {
-  const Vec v = follows_flow(p, i) ? flow_->path->vec(i) : p.v.vec(i);
+  const Vec v = p.v.vec(i);
   Real time = region_ ? region_->time_to_reach(x, v, reach) : 0;
   if (p.state[i] == particle_waiting) time = std::max(time, inlets_[(*inlet_)[i]].time_to_reach(x, v, reach));
   return time;

@@ -52,10 +52,8 @@ class Neighbours {
   Index particle_of(const Particles& p, Index j) const;
   /// Particles in the state particle_waiting become active when they cross the plane that `inlet` counts from
   /// 0 (and are inside the box, where there is one). At time t they are at `start` + v t, so that their last
-  /// bits do not depend on when they woke. `flow`: of inlets that follow the run, null where there are none;
-  /// their particles keep the position `start` until they wake. Call before the first refresh.
-  void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet, const Field<Real>& start,
-                  std::shared_ptr<const InletFlow> flow);
+  /// bits do not depend on when they woke. Call before the first refresh.
+  void set_inlets(std::vector<InletPlane> planes, const Field<Index>& inlet, const Field<Real>& start);
 
   /// Sorts and rebuilds if necessary, then calls every Refresh of the world. Returns whether it did. Throws
   /// RunError naming a particle whose position is not a finite number.
@@ -163,8 +161,6 @@ class Neighbours {
   Index take_due(World& world, Real t);
   void wake_all(World& world, Real t);
   bool sleeps_on(const Particles& p, Index i, Real t) const;
-  bool follows_flow(const Particles& p, Index i) const;
-  bool flow_is_due() const;
   void move_dormant(Particles& p, Index i, Real t) const;
   static Real largest_h(const Particles& p);
   bool must_wake_all(const World& world) const;
@@ -225,8 +221,6 @@ class Neighbours {
   std::vector<Index> entered_, left_;
   std::int64_t rebuilds_ = 0;
   std::vector<Real> waking_;  ///< when dormant particles wake if lists are built then, ascending [T]
-  std::shared_ptr<const InletFlow> flow_;  ///< of inlets that follow the run; null: there are none
-  std::vector<Real> flow_due_;             ///< of each such inlet: as due_, of its displacement [L]
 };
 
 inline std::shared_ptr<Neighbours> with_whole_lists(std::shared_ptr<Neighbours> neighbours) {

@@ -74,17 +74,9 @@ Real Neighbours::largest_h(const Particles& p) {
   return p.size() > 0 ? maximum(p.size(), [&](Index i) { return p.h[i]; }) : 0;
 }
 
-/// Whether it waits at an inlet whose velocity follows from the run.
-bool Neighbours::follows_flow(const Particles& p, Index i) const {
-  return flow_ && p.state[i] == particle_waiting && inlets_[(*inlet_)[i]].follows;
-}
-
 /// To where it is at time t.
 void Neighbours::move_dormant(Particles& p, Index i, Real t) const {
-  if (follows_flow(p, i)) {
-    if (!sleeps_on(p, i, t))
-      p.x.set(i, start_->vec(i) + flow_->path->vec(i) * flow_->displacement[(*inlet_)[i]]);
-  } else if (p.state[i] == particle_waiting)
+  if (p.state[i] == particle_waiting)
     p.x.set(i, start_->vec(i) + p.v.vec(i) * t);
   else if (rebuilds_ > 0)
     p.x.set(i, p.x.vec(i) + p.v.vec(i) * (t - p.dormant_time));
@@ -101,15 +93,7 @@ Index Neighbours::take_due(World& world, Real t) {
 
 /// Whether a particle that waits at an inlet stays dormant where all others are looked at again.
 bool Neighbours::sleeps_on(const Particles& p, Index i, Real t) const {
-  if (i < p.moving || p.state[i] != particle_waiting) return false;
-  return waking_time(p, i) > (follows_flow(p, i) ? flow_->displacement[(*inlet_)[i]] : t);
-}
-
-/// Whether one that follows the flow of its inlet may come within reach now.
-bool Neighbours::flow_is_due() const {
-  for (std::size_t k = 0; k < flow_due_.size(); ++k)
-    if (flow_due_[k] <= flow_->displacement[k]) return true;
-  return false;
+  return i >= p.moving && p.state[i] == particle_waiting && waking_time(p, i) > t;
 }
 
 void Neighbours::wake_all(World& world, Real t) {
@@ -122,8 +106,7 @@ void Neighbours::wake_all(World& world, Real t) {
 
 /// Too many are far from the box, or h grew, with room for what grows until next time.
 bool Neighbours::must_wake_all(const World& world) const {
-  return flow_is_due() || gone_ > 64 + world.particles.moving / 4 ||
-         h_max_ > 0.5 * (1 + h_growth) * h_queued_;
+  return gone_ > 64 + world.particles.moving / 4 || h_max_ > 0.5 * (1 + h_growth) * h_queued_;
 }
 
 void Neighbours::stop_for_lost_particles(const World& world, const Clock& clock, Index n) const {
@@ -251,8 +234,7 @@ void Neighbours::take_cell_starts(Index cells) {
   if (Index(starts.size()) > cells + 1) halo_start_ = starts.subspan(cells, cells + 1);
 }
 
-// When a dormant particle can be within reach of the box; where it follows the flow of its inlet, by its
-// displacement.
+// When a dormant particle can be within reach of the box.
 Real Neighbours::due_time(const Particles& p, Index i) const {
   if (p.state[i] == particle_deactivated) return std::numeric_limits<Real>::infinity();
   const Real reach = support_ * (h_changes_ ? h_growth : 1) * h_queued_ + most_skin_;
@@ -262,19 +244,15 @@ Real Neighbours::due_time(const Particles& p, Index i) const {
 
 // From when on it may wake, by itself alone: which others there are depends on ENDTIM.
 Real Neighbours::waking_time(const Particles& p, Index i) const {
-  const Real due = due_time(p, i);
-  const Real speed = follows_flow(p, i) ? flow_->path->vec(i).norm() : p.v.vec(i).norm();
+  const Real due = due_time(p, i), speed = p.v.vec(i).norm();
   if (!(due < std::numeric_limits<Real>::infinity())) return std::numeric_limits<Real>::infinity();
   return speed > 0 ? due - waking_margin * h_queued_ / speed : due;
 }
 
-// Behind the moving particles: those first that wake first, and last those that follow the flow of an inlet,
-// for which all are looked at again.
+// Behind the moving particles: those first that wake first.
 void Neighbours::order_dormant(const Particles& p) {
-  constexpr Real last = std::numeric_limits<Real>::infinity();
   std::vector<Real> waking(p.size());
-  for (std::size_t k = p.moving; k < order_.size(); ++k)
-    waking[order_[k]] = follows_flow(p, order_[k]) ? last : waking_time(p, order_[k]);
+  for (std::size_t k = p.moving; k < order_.size(); ++k) waking[order_[k]] = waking_time(p, order_[k]);
   std::sort(order_.begin() + p.moving, order_.end(), [&](Index a, Index b) {
     return waking[a] != waking[b] ? waking[a] < waking[b] : p.id[a] < p.id[b];
   });
@@ -285,15 +263,8 @@ void Neighbours::queue_dormant(const Particles& p) {
   waking_.resize(static_cast<std::size_t>(p.size() - p.moving));
   due_.resize(waking_.size());
   Real next = std::numeric_limits<Real>::infinity();
-  flow_due_.assign(flow_ ? inlets_.size() : 0, next);
   for (std::size_t k = due_.size(); k-- > 0;) {
     const Index i = p.moving + static_cast<Index>(k);
-    if (follows_flow(p, i)) {
-      Real& due = flow_due_[static_cast<std::size_t>((*inlet_)[i])];
-      due = std::min(due, due_time(p, i));
-      waking_[k] = std::numeric_limits<Real>::infinity(), due_[k] = next;
-      continue;
-    }
     waking_[k] = waking_time(p, i);
     due_[k] = next = std::min(next, due_time(p, i));
   }

@@ -113,8 +113,8 @@ void add_wall_ghosts(World& world, Neighbours& neighbours, const GhostsOfScene& 
 
 void find_neighbours(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                      LeftOut& left_out, const Injections& injections, SphSettings& settings,
-                     std::shared_ptr<Neighbours>& neighbours, std::shared_ptr<InletFlow>& flow,
-                     GhostsOfScene& ghosts, MotionLimits& limits, ParticleContactRules& rules) {
+                     std::shared_ptr<Neighbours>& neighbours, GhostsOfScene& ghosts, MotionLimits& limits,
+                     ParticleContactRules& rules) {
   limits = {settings.dim, settings.region.has_value(), {}};
   if (world.particles.size() == 0) {
     left_out.add("particles", "no *ELEMENT_SPH");
@@ -125,7 +125,7 @@ void find_neighbours(const Deck& deck, const Model& model, World& world, Diagnos
   neighbours->adapt_skin(least_skin * h, most_skin * h,
                          settings.geometry_eps > 0 ? skin_weight_of_windows : skin_weight);
   if (!settings.evolving_h) neighbours->keep_h();
-  flow = make_injected_wait(injections, world, *neighbours);
+  make_injected_wait(injections, world, *neighbours);
   if (injections.inlets.empty()) left_out.add("inlets", "no *DEFINE_SPH_INJECTION");
   add_ghosts(deck, model, world, diagnostics, left_out, h, *neighbours, settings, ghosts);
   ghosts.of_walls = build_wall_ghosts(deck, model, settings, world, diagnostics);
@@ -145,11 +145,8 @@ void warn_of_walls(const Deck& deck, Diagnostics& diagnostics, const RigidWallsT
 
 void set_pressures(const Deck& deck, const Model& model, World& world, Diagnostics& diagnostics,
                    const std::vector<PartMaterial>& materials, const Injections& injections,
-                   const SphSettings& settings, const GhostsOfScene& ghosts,
-                   const std::shared_ptr<InletFlow>& flow, ParticlePressures&) {
+                   const SphSettings& settings, ParticlePressures&) {
   if (world.particles.size() == 0) return;
-  check_held_levels(deck, injections, ghosts.planes, materials, settings, world, diagnostics);
-  if (diagnostics.ok()) add_held_levels(injections, materials, flow, world);
   if (diagnostics.ok()) set_initial_pressures(deck, model, materials, world, diagnostics);
   if (diagnostics.ok()) set_inlet_pressures(injections, deck, model, materials, world, diagnostics);
   if (!diagnostics.ok()) return;

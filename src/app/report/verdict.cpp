@@ -245,10 +245,6 @@ void add_clamps(const Summary& s, std::vector<Finding>& out) {
     out.push_back({false, fmt::format("{} particles were faster than MAXV and switched off", n)});
   if (const auto n = count("speed_clipped"); n > 0)
     out.push_back({false, fmt::format("speeds were cut to MAXV {} times", n)});
-  if (const auto n = count("inlet_backflow"); n > 0)
-    out.push_back({false, fmt::format("{} particles flowed back by more than a spacing through an inlet that "
-                                      "holds a level, and lets nothing out: the level inside is too high",
-                                      n)});
 }
 
 }  // namespace

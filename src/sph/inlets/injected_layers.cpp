@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sph/cards.hpp"
-#include "sph/inlets/injection.hpp"
 #include "sph/inlets/inlet_flow.hpp"
+#include "sph/inlets/injection.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "state/shared_fields.hpp"
 
@@ -34,8 +34,6 @@ struct Layer {
 
 /// When the middle of a layer crosses the plane. [T]
 Real entry(const Injection& inlet, const Row& row, Real number) {
-  if (inlet.held.on)  // at the soonest
-    return inlet.begin + (number + 0.5) * inlet.spacing / (row.factor * inlet.held.fastest);
   const Real way = (number + 0.5) * (inlet.spacing / (inlet.speed() * row.factor));
   return inlet.rate.time_of(way, inlet.begin);
 }
@@ -43,7 +41,6 @@ Real entry(const Injection& inlet, const Row& row, Real number) {
 /// How long before it comes in a layer must be there. The same for all layers of a row, so that with a later
 /// ENDTIM more follow behind the same ones. [T]
 Real lead(const Injection& inlet, const Row& row) {
-  if (inlet.held.on) return inlet.reach / (row.factor * inlet.held.fastest);
   constexpr Real slowest = 0.1;  // of the fastest: what is slower waits nearer by than the kernel reaches
   const Real rate = std::max(inlet.rate.least(), slowest * inlet.rate.most());
   return inlet.reach / (inlet.speed() * row.factor * rate);
@@ -51,10 +48,6 @@ Real lead(const Injection& inlet, const Row& row) {
 
 /// Layers that enter by TEND and are needed by ENDTIM; at most `most`.
 Real layers_of(const Injection& inlet, const Row& row, Real endtim, Real most) {
-  if (inlet.held.on) {
-    const Real flows = std::max(Real(0), std::min(inlet.end, endtim) - inlet.begin) * inlet.held.fastest;
-    return std::floor((row.factor * flows + inlet.reach) / inlet.spacing + 0.5);
-  }
   const Real last = std::min(inlet.end, endtim + lead(inlet, row));
   if (inlet.rate.steady()) {
     const Real time_of_layer = inlet.spacing / (inlet.speed() * row.factor);
@@ -70,7 +63,7 @@ std::vector<Row> rows_of(const std::vector<Injection>& inlets) {
   std::vector<Row> rows;
   for (std::size_t k = 0; k < inlets.size(); ++k) {
     const std::size_t first = rows.size();
-    for (std::size_t n = 0; n < inlets[k].positions.size(); ++n) {
+    for (std::size_t n = 0; n < inlets[k].places.size(); ++n) {
       const Real factor = inlets[k].factor.empty() ? 1 : inlets[k].factor[n];
       auto row = std::find_if(rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end(),
                               [&](const Row& r) { return std::abs(r.factor - factor) <= same * factor; });
@@ -102,32 +95,27 @@ class Layers {
     for (const ModelNode& node : model.nodes) id_ = std::max(id_, node.id);
     for (const Injection& inlet : out.inlets) {
       has_surface_ |= inlet.surface.on;
-      filled_.emplace_back(inlet.positions.size(), 0.5);
+      filled_.emplace_back(inlet.places.size(), 0.5);
     }
   }
 
   void add(const Layer& layer) {
     const Row& row = rows_[layer.row];
     Injection& inlet = out_.inlets[row.inlet];
-    const Real volume = inlet.area / static_cast<Real>(inlet.positions.size()) * inlet.spacing;
+    const Real volume = inlet.area / static_cast<Real>(inlet.places.size()) * inlet.spacing;
     const Real t = entry(inlet, row, static_cast<Real>(layer.number));
-    const bool held = inlet.held.on;
-    const Vec v = held ? Vec(Vec::Zero()) : velocity(inlet, row, layer.number, t),
-              before = held ? behind(inlet, layer.number) : way(inlet, layer.number, v, t);
-    inlet.layers = std::max(inlet.layers, layer.number + 1);
+    const Vec v = velocity(inlet, row, layer.number, t), before = way(inlet, layer.number, v, t);
     for (const std::size_t n : row.places) {
-      const Vec& position = inlet.positions[n];
-      if (inlet.surface.on && !held && !takes_part(inlet, n, t, filled_[row.inlet][n])) continue;
+      const Vec& place = inlet.places[n];
+      if (inlet.surface.on && !takes_part(inlet, n, t, filled_[row.inlet][n])) continue;
       model_.sph.push_back({.node = static_cast<Index>(model_.nodes.size()),
                             .part = inlet.part,
                             .mass = -volume,
                             .card = inlet.card,
                             .spacing = inlet.is_lattice() ? 0 : std::max(inlet.spacing, inlet.cell)});
-      model_.nodes.push_back({.id = ++id_, .x = position - before, .v = v});
+      model_.nodes.push_back({.id = ++id_, .x = place - before, .v = v});
       out_.inlet_of.push_back(static_cast<Index>(row.inlet));
-      out_.position.push_back(static_cast<Index>(n));
-      if (has_surface_)
-        out_.head.push_back(inlet.surface.on && !held ? inlet.surface.head(position, t, inlet.part) : 0);
+      if (has_surface_) out_.head.push_back(inlet.surface.on ? inlet.surface.head(place, t, inlet.part) : 0);
       ++inlet.particles;
     }
   }
@@ -141,19 +129,15 @@ class Layers {
     const Real before = number == 0 ? inlet.begin : inlet.rate.time_of(2 * half * number, inlet.begin);
     return inlet.v * row.factor * std::max(inlet.rate(t), 0.5 * half / (t - before));
   }
-  /// From where a particle of the layer is at t = 0 to its position in the plane. [L]
+  /// From where a particle of the layer stands at t = 0 to its place in the plane. [L]
   static Vec way(const Injection& inlet, Index number, const Vec& v, Real t) {
     if (!inlet.rate.steady()) return v * t;
-    return v * inlet.begin + behind(inlet, number);
-  }
-  /// From a layer to the plane, before the flow begins. [L]
-  static Vec behind(const Injection& inlet, Index number) {
-    return (static_cast<Real>(number) + 0.5) * inlet.spacing * (inlet.v / inlet.speed());
+    return v * inlet.begin + (static_cast<Real>(number) + 0.5) * inlet.spacing * (inlet.v / inlet.speed());
   }
   /// Of a cell that the surface cuts, as many as its share below the surface: what flows in is right in the
   /// mean.
   static bool takes_part(const Injection& inlet, std::size_t n, Real t, Real& filled) {
-    filled += inlet.surface.filled(inlet.positions[n], t, inlet.cell, inlet.plane.normal);
+    filled += inlet.surface.filled(inlet.places[n], t, inlet.cell, inlet.plane.normal);
     if (filled < 1) return false;
     filled -= 1;
     return true;
@@ -164,7 +148,7 @@ class Layers {
   Model& model_;
   Id id_ = 0;
   bool has_surface_ = false;
-  std::vector<std::vector<Real>> filled_;  ///< by inlet and position: shares of a particle that are due
+  std::vector<std::vector<Real>> filled_;  ///< by inlet and place: shares of a particle that are due
 };
 
 /// Water of the deck that stands where particles of an inlet come along.
@@ -172,7 +156,7 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
                        Diagnostics& diagnostics) {
   const Real near = 0.5 * inlet.spacing;
   Real width = 0;
-  for (const Vec& position : inlet.positions) width = std::max(width, (position - inlet.plane.point).norm());
+  for (const Vec& place : inlet.places) width = std::max(width, (place - inlet.plane.point).norm());
   const Real length = inlet.reach;
   for (Index i = 0; i < particles; ++i) {
     const ModelNode& node =
@@ -181,8 +165,8 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
     if (!(upstream > 0 && upstream < length)) continue;
     const Vec x = node.x + inlet.v * (upstream / inlet.speed());  // where the flow takes it to the plane
     if ((x - inlet.plane.point).norm() > width + near) continue;
-    for (const Vec& position : inlet.positions) {
-      if ((x - position).norm() > near) continue;
+    for (const Vec& place : inlet.places) {
+      if ((x - place).norm() > near) continue;
       return diagnostics.error(
           deck.where(inlet.card),
           fmt::format("{}: particle {} is {:.4g} [L] upstream of the inlet, where entering particles wait",
@@ -192,15 +176,14 @@ void report_in_the_way(const Injection& inlet, const Deck& deck, const Model& mo
   }
 }
 
-/// Two inlets at one position: columns upstream would overlap, or leave a gap, but where they are one column
+/// Two inlets at one place: columns upstream would overlap, or leave a gap, but where they are one column
 /// with pauses.
-void report_same_position(const Injection& a, const Injection& b, const Deck& deck,
-                          Diagnostics& diagnostics) {
-  const bool steady = a.rate.steady() && b.rate.steady() && a.factor == b.factor && !a.held.on && !b.held.on;
+void report_same_place(const Injection& a, const Injection& b, const Deck& deck, Diagnostics& diagnostics) {
+  const bool steady = a.rate.steady() && b.rate.steady() && a.factor == b.factor;
   const bool one_column = steady && a.v == b.v && (a.end <= b.begin || b.end <= a.begin);
   if (one_column) return;
-  for (const Vec& x : a.positions)
-    for (const Vec& y : b.positions) {
+  for (const Vec& x : a.places)
+    for (const Vec& y : b.places) {
       if ((x - y).norm() > 0.5 * std::min(a.spacing, b.spacing)) continue;
       return diagnostics.error(
           deck.where(b.card),
@@ -222,50 +205,24 @@ int dimension(const Deck& deck, const Entry& inlet, Diagnostics& diagnostics) {
   return 0;
 }
 
-/// The displacements of inlets with a held level, and the paths of their particles.
-std::shared_ptr<InletFlow> flow_of_held_levels(const Injections& injections, Particles& p) {
-  const auto held = [](const Injection& one) { return one.held.on; };
-  if (std::none_of(injections.inlets.begin(), injections.inlets.end(), held)) return {};
-  auto flow = std::make_shared<InletFlow>();
-  flow->displacement.assign(injections.inlets.size(), 0);
-  auto& path = p.fields.add<Real>({.name = "inlet_path", .dimension = "-", .components = 3});
-  auto& position = held_level_fields::position.add(p.fields);
-  for (std::size_t k = 0; k < injections.inlet_of.size(); ++k) {
-    const Injection& inlet = injections.inlets[static_cast<std::size_t>(injections.inlet_of[k])];
-    const Index i = injections.first + static_cast<Index>(k);
-    if (!held(inlet)) continue;
-    const Index n = injections.position[k];
-    const Real factor = inlet.factor.empty() ? 1 : inlet.factor[static_cast<std::size_t>(n)];
-    path.set(i, inlet.v / inlet.speed() * factor);
-    position[i] = n + 1;
-  }
-  flow->path = &path;
-  return flow;
-}
-
 /// Sets waiting particles to start + v t: the position does not depend, not even in the
-/// last bits, on when it woke. Those at a held level move by a pass of their own.
+/// last bits, on when it woke.
 class WaitingMotion : public Motion {
  public:
-  WaitingMotion(const Field<Real>& start, std::shared_ptr<const InletFlow> flow)
-      : start_(start), flow_(std::move(flow)) {}
+  explicit WaitingMotion(const Field<Real>& start) : start_(start) {}
   std::string name() const override { return "motion of particles that wait"; }
   void declare(const World& world, Accesses& a) const override {
     const Particles& p = world.particles;
     a.reads(start_).reads(p.state).reads(p.v).revises(p.x);
-    if (flow_) a.reads(*held_level_fields::position.find(p.fields));
   }
   void block(World& world, const Clock& clock, Index begin, Index end) override {
     Particles& p = world.particles;
-    const Field<Index>* position = flow_ ? held_level_fields::position.find(p.fields) : nullptr;
     for (Index i = std::max(begin, p.active); i < end; ++i)
-      if (p.state[i] == particle_waiting && (!position || (*position)[i] == 0))
-        p.x.set(i, start_.vec(i) + p.v.vec(i) * (clock.t + clock.dt));
+      if (p.state[i] == particle_waiting) p.x.set(i, start_.vec(i) + p.v.vec(i) * (clock.t + clock.dt));
   }
 
  private:
   const Field<Real>& start_;
-  std::shared_ptr<const InletFlow> flow_;
 };
 
 }  // namespace
@@ -303,15 +260,14 @@ Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& d
     model.parts[static_cast<std::size_t>(inlet.part)].has_sph = true;
   }
   for (std::size_t b = 1; b < out.inlets.size(); ++b)
-    for (std::size_t a = 0; a < b; ++a) report_same_position(out.inlets[a], out.inlets[b], deck, diagnostics);
+    for (std::size_t a = 0; a < b; ++a) report_same_place(out.inlets[a], out.inlets[b], deck, diagnostics);
   Layers layers(out, rows, model);
   for (const Layer& layer : layers_in_time(out.inlets, rows)) layers.add(layer);
   return out;
 }
 
-std::shared_ptr<InletFlow> make_injected_wait(const Injections& injections, World& world,
-                                              Neighbours& neighbours) {
-  if (injections.inlets.empty()) return {};
+void make_injected_wait(const Injections& injections, World& world, Neighbours& neighbours) {
+  if (injections.inlets.empty()) return;
   Particles& p = world.particles;
   auto& inlet = shared_fields::inlet.add(p.fields);
   auto& start = p.fields.add<Real>({.name = "start", .dimension = "L", .components = 3});
@@ -321,16 +277,10 @@ std::shared_ptr<InletFlow> make_injected_wait(const Injections& injections, Worl
     p.state[i] = particle_waiting;
     start.set(i, p.x.vec(i));
   }
-  std::shared_ptr<InletFlow> flow = flow_of_held_levels(injections, p);
-  if (flow) flow->start = &start;
-  world.passes.add(std::make_shared<WaitingMotion>(start, flow));
+  world.passes.add(std::make_shared<WaitingMotion>(start));
   std::vector<InletPlane> planes;
-  for (const Injection& one : injections.inlets) {
-    planes.push_back(one.plane);
-    planes.back().follows = one.held.on;
-  }
-  neighbours.set_inlets(std::move(planes), inlet, start, flow);
-  return flow;
+  for (const Injection& one : injections.inlets) planes.push_back(one.plane);
+  neighbours.set_inlets(std::move(planes), inlet, start);
 }
 
 void set_inlet_pressures(const Injections& injections, const Deck& deck, const Model& model,
@@ -365,26 +315,19 @@ std::string injections_text(const Injections& injections, const Model& model) {
   std::string text;
   for (const Injection& inlet : injections.inlets) {
     const auto flow = [&] {
-      if (inlet.held.on)
-        return fmt::format("held {}, up to {} layers of {} positions",
-                           inlet.held.energy ? "energy head" : "level", inlet.layers, inlet.positions.size());
       if (!inlet.rate.steady())
-        return fmt::format("{} at a time as curve {} has it", inlet.positions.size(), inlet.rate.curve());
+        return fmt::format("{} at a time as curve {} has it", inlet.places.size(), inlet.rate.curve());
       if (!inlet.factor.empty())
-        return fmt::format("rows of {} positions at speeds of {:.4g} to {:.4g}", inlet.positions.size(),
+        return fmt::format("rows of {} positions at speeds of {:.4g} to {:.4g}", inlet.places.size(),
                            inlet.speed() * *std::min_element(inlet.factor.begin(), inlet.factor.end()),
                            inlet.speed() * *std::max_element(inlet.factor.begin(), inlet.factor.end()));
-      return fmt::format("{} particles every {:.4g} [T]", inlet.positions.size(),
-                         inlet.spacing / inlet.speed());
+      return fmt::format("{} particles every {:.4g} [T]", inlet.places.size(), inlet.spacing / inlet.speed());
     };
     text +=
         fmt::format("  {:<12}part {}: {} from {:g}{}, {} wait; area {:.5g}", "inlet",
                     model.parts[static_cast<std::size_t>(inlet.part)].id, flow(), inlet.begin,
                     inlet.end < 1e20 ? fmt::format(" to {:g}", inlet.end) : "", inlet.particles, inlet.area);
-    if (inlet.held.on)
-      text += fmt::format(", measured {:.4g} downstream, relaxation time {:.4g}, speed up to {:.4g}",
-                          inlet.held.distance, inlet.held.tau, inlet.held.fastest);
-    else if (inlet.rate.steady())
+    if (inlet.rate.steady())
       text +=
           fmt::format(", speed {:.5g}, volume per time {:.5g}", inlet.speed(), inlet.area * inlet.speed());
     text += '\n';

@@ -192,7 +192,7 @@ class Reader {
     if (tend <= tbeg)
       return error(c, "TEND", fmt::format("expected a time behind TBEG = {:g}, got '{:g}'", tbeg, tend));
     inlet.part = part->second;
-    inlet.positions = shape.places;
+    inlet.places = shape.places;
     inlet.plane.point = shape.places.front();
     inlet.area = shape.area * static_cast<Real>(shape.places.size());
     inlet.spacing = dim_ == 2 ? shape.area : std::sqrt(shape.area);
@@ -224,7 +224,7 @@ class Reader {
     const auto found = model_.boxes.find(control->boxid);
     if (found == model_.boxes.end() || found->second.local) return true;  // refused elsewhere
     const Neighbours::Region region{found->second.low, found->second.high};
-    for (const Vec& place : inlet.positions)
+    for (const Vec& place : inlet.places)
       if (std::isfinite(region.time_to_reach(place, inlet.v, 0))) return true;
     error(
         c, "PID",

@@ -7,7 +7,6 @@
 #include "keyword/deck.hpp"
 #include "model/model.hpp"
 #include "search/neighbours.hpp"
-#include "sph/inlets/held_level.hpp"
 #include "sph/inlets/inlet_flow.hpp"
 #include "sph/materials/materials.hpp"
 #include "state/world.hpp"
@@ -19,19 +18,17 @@ struct Injection {
   Entry card;
   Index part = 0;  ///< index into the model's parts
   InletPlane plane{};
-  Vec v = Vec::Zero();           ///< [L/T], times `rate` and `factor`
-  InletRate rate{};              ///< over time
-  std::vector<Vec> positions{};  ///< of a layer, in the plane [L]
-  std::vector<Real> factor{};    ///< on v at each position; empty: 1 everywhere
+  Vec v = Vec::Zero();         ///< [L/T], times `rate` and `factor`
+  InletRate rate{};            ///< over time
+  std::vector<Vec> places{};   ///< of a layer, in the plane [L]
+  std::vector<Real> factor{};  ///< on v at each position; empty: 1 everywhere
   FreeSurface surface{};
-  HeldLevel held{};         ///< where it is on, `v` is a direction only
   Real area = 0;            ///< of all positions [L2], in 2D per unit of depth [L]
   Real spacing = 0;         ///< of the layers, along the normal [L]
   Real cell = 0;            ///< distance of positions in the plane [L]
   Real begin = 0, end = 0;  ///< TBEG and TEND [T]
   Real reach = 0;           ///< how far upstream layers must be to fill the kernel [L]
   Index particles = 0;      ///< that were made
-  Index layers = 0;         ///< of a held level: the most
 
   /// Through the plane, before `rate` and `factor` [L/T]
   Real speed() const { return v.dot(plane.normal); }
@@ -45,7 +42,6 @@ struct Injections {
   Index first = 0;              ///< particle of the model that was made; all behind it were, too
   std::vector<Index> inlet_of;  ///< particle first + k
   std::vector<Real> head;       ///< pressure with which it comes in, over RO [L2/T2]; empty: 0
-  std::vector<Index> position;  ///< index into `positions` of its inlet
 };
 
 /// The first card of an inlet; null where there is none.
@@ -60,10 +56,9 @@ std::vector<Injection> read_injections(const Deck& deck, const Model& model, int
 /// highest of a node.
 Injections add_injected_particles(const Deck& deck, Model& model, Diagnostics& diagnostics);
 
-/// Marks the particles that were made as waiting, and has `neighbours` let them in. Returns the flow of the
-/// inlets with a held level; null: there are none. Call while particles are in the order of the model.
-std::shared_ptr<InletFlow> make_injected_wait(const Injections& injections, World& world,
-                                              Neighbours& neighbours);
+/// Marks the particles that were made as waiting, and has `neighbours` let them in. Call while particles
+/// are in the order of the model.
+void make_injected_wait(const Injections& injections, World& world, Neighbours& neighbours);
 
 /// Gives particles that come in under pressure the density at which they have it, and the mass of their share
 /// of the inlet at that density. Refuses pressures that the equation of state does not reach. Call as

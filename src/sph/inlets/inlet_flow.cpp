@@ -11,14 +11,13 @@
 
 #include "keyword/registry.hpp"
 #include "model/definitions/named_curve.hpp"
-#include "sph/inlets/held_level.hpp"
 #include "sph/inlets/injection.hpp"
 
 namespace courant {
 
 namespace {
 
-enum class SurfaceChoice { none = 0, upper_rim = 1, point = 2, held = 3 };
+enum class SurfaceChoice { none = 0, upper_rim = 1, point = 2 };
 enum class Profile { uniform = 0, power = 1, logarithmic = 2, curve = 3 };
 
 const RegisterKeyword<CourantInflow> courant_inflow_keyword{courant_inflow_table()};
@@ -48,13 +47,6 @@ class InflowReader {
         for (Injection& inlet : inlets_)
           if (is_of_part(inlet)) complete(card, inlet);
     }
-    for (const CourantInflow& card : deck_.all<CourantInflow>())
-      if (static_cast<SurfaceChoice>(card.surf) == SurfaceChoice::held &&
-          std::any_of(inlets_.begin(), inlets_.end(),
-                      [](const Injection& inlet) { return !inlet.held.on; }) &&
-          diagnostics_.ok())
-        refuse(card, "SURF", "3 beside inlets that hold no level is not supported",
-               "let all inlets hold a level, or none");
   }
 
  private:
@@ -67,20 +59,11 @@ class InflowReader {
     const int errors = diagnostics_.errors();
     const auto surf = static_cast<SurfaceChoice>(card.surf);
     const auto profile = static_cast<Profile>(card.prof);
-    const bool has_point = surf == SurfaceChoice::point || surf == SurfaceChoice::held;
-    if (!has_point && !Vec(card.xs, card.ys, card.zs).isZero())
-      refuse(card, "XS", "the point is that of SURF 2 and 3", "give SURF 2, or leave it blank");
-    if (surf != SurfaceChoice::held)
-      for (const auto& [field, value] : {std::pair("DIST", card.dist), std::pair("TAU", card.tau),
-                                         std::pair("QMAX", card.qmax), std::pair("HEAD", Real(card.head))})
-        if (value != 0)
-          refuse(card, field, fmt::format("SURF {} does not use it", card.surf),
-                 "give SURF 3, which holds a level, or leave it blank");
+    if (surf != SurfaceChoice::point && !Vec(card.xs, card.ys, card.zs).isZero())
+      refuse(card, "XS", "the point is that of SURF 2", "give SURF 2, or leave it blank");
     if (surf == SurfaceChoice::none && card.lclev != 0)
-      refuse(card, "LCLEV", "without a surface it has no level", "give SURF 1, 2 or 3");
+      refuse(card, "LCLEV", "without a surface it has no level", "give SURF 1 or 2");
     if (card.lclev != 0) curve_of(card, "LCLEV", card.lclev);
-    if (profile == Profile::curve && surf == SurfaceChoice::held)
-      refuse(card, "PROF", "a curve with a held level is not supported", "give PROF 0, 1 or 2");
     if (profile == Profile::logarithmic && !(card.ks > 0))
       refuse(card, "KS", "PROF 2 needs the roughness", "of a smooth bed it is 3.3 nu/u*");
     if (profile != Profile::logarithmic && card.ks > 0)
@@ -116,18 +99,16 @@ class InflowReader {
     surface.gravity = loads;
     const auto height = [&](const Vec& x) { return x.dot(surface.up); };
     const auto [low, high] =
-        std::minmax_element(inlet.positions.begin(), inlet.positions.end(),
+        std::minmax_element(inlet.places.begin(), inlet.places.end(),
                             [&](const Vec& a, const Vec& b) { return height(a) < height(b); });
     // The normal component of `up` takes nothing from the height of a cell.
     const Real half =
         0.5 * inlet.cell * (surface.up - surface.up.dot(inlet.plane.normal) * inlet.plane.normal).norm();
     surface.on = card.surf != 0;
-    const auto surf = static_cast<SurfaceChoice>(card.surf);
-    surface.point = surf == SurfaceChoice::point || surf == SurfaceChoice::held
+    surface.point = static_cast<SurfaceChoice>(card.surf) == SurfaceChoice::point
                         ? Vec(card.xs, card.ys, card.zs)
                         : Vec(*high + half * surface.up);
     if (card.lclev != 0) surface.level = model_.curves.at(card.lclev);
-    if (surf == SurfaceChoice::held) read_held_level(deck_, model_, card, inlet, diagnostics_);
     if (static_cast<Profile>(card.prof) != Profile::uniform) set_profile(card, inlet, height(*low) - half);
   }
 
@@ -135,7 +116,7 @@ class InflowReader {
   void set_profile(const CourantInflow& card, Injection& inlet, Real bottom) {
     const auto profile = static_cast<Profile>(card.prof);
     Real sum = 0, wet = 0;
-    for (const Vec& x : inlet.positions) {
+    for (const Vec& x : inlet.places) {
       const Real z = x.dot(inlet.surface.up) - bottom;
       const Real f = profile == Profile::power         ? std::pow(z, 1 / card.expo)
                      : profile == Profile::logarithmic ? std::log(30 * z / card.ks)

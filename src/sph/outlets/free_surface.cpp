@@ -2,10 +2,10 @@
 
 namespace courant {
 
-Real FreeSurface::filled(const Vec& x, Real t, Real cell, const Vec& normal, Real drop) const {
+Real FreeSurface::filled(const Vec& x, Real t, Real cell, const Vec& normal) const {
   const Real slope = (up - up.dot(normal) * normal).norm();  // 0: the inlet lies flat
-  if (!(slope > 1e-6)) return depth(x, t, drop) > 0 ? 1 : 0;
-  return std::clamp(depth(x, t, drop) / (slope * cell) + Real(0.5), Real(0), Real(1));
+  if (!(slope > 1e-6)) return depth(x, t) > 0 ? 1 : 0;
+  return std::clamp(depth(x, t) / (slope * cell) + Real(0.5), Real(0), Real(1));
 }
 
 std::optional<Vec> upward(const BodyAcceleration& gravity, const Vec& x, Real t, Real endtim, Index part) {

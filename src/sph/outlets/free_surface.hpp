@@ -15,18 +15,17 @@ struct FreeSurface {
   Curve level{};            ///< height of the surface above `point` over time [L]; empty: 0
   BodyAcceleration gravity{};
 
-  // `drop`: by which the surface is lower than `level` has it. [L]
   /// Of a position below the surface; < 0 above it. [L]
-  Real depth(const Vec& x, Real t, Real drop = 0) const {
-    return up.dot(point - x) + (level.abscissa.empty() ? 0 : level(t)) - drop;
+  Real depth(const Vec& x, Real t) const {
+    return up.dot(point - x) + (level.abscissa.empty() ? 0 : level(t));
   }
   /// |g| depth: the pressure over the density; 0 above the surface. [L2/T2]
-  Real head(const Vec& x, Real t, Index part, Real drop = 0) const {
-    return gravity(x, t, part).norm() * std::max(Real(0), depth(x, t, drop));
+  Real head(const Vec& x, Real t, Index part) const {
+    return gravity(x, t, part).norm() * std::max(Real(0), depth(x, t));
   }
   /// Share of a cell of height `cell` around a position in a plane with this normal that is below the
   /// surface.
-  Real filled(const Vec& x, Real t, Real cell, const Vec& normal, Real drop = 0) const;
+  Real filled(const Vec& x, Real t, Real cell, const Vec& normal) const;
 };
 
 /// Against the acceleration of particles of a part at a position: at time t or, for a gravity that starts

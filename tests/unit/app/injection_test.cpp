@@ -305,8 +305,8 @@ TEST(Injection, ByRadiusAndByVolumeFlow) {
     const Injection& inlet = (*s)->get<Injections>().inlets[0];
     EXPECT_NEAR(inlet.area * inlet.speed(), 2 * pi * 0.25, 1e-12);
     EXPECT_NEAR((inlet.v - Vec(0, 0, -2)).norm(), 0, 1e-12);
-    EXPECT_EQ(inlet.positions.size(), 81u);  // of the lattice points within five spacings
-    for (const Vec& x : inlet.positions) EXPECT_NEAR(x[2], 2.75, 1e-12);
+    EXPECT_EQ(inlet.places.size(), 81u);  // of the lattice points within five spacings
+    for (const Vec& x : inlet.places) EXPECT_NEAR(x[2], 2.75, 1e-12);
   }
 }
 

@@ -198,20 +198,6 @@ TEST(Restart, InjectionThatChanges) {
   expect_same(scene, {0, 3, 60}, 200);
 }
 
-/// A level that is held, first by more and then by less than what flows out; one of the positions is cut by
-/// it.
-SmallScene with_held_level(const std::string& endtim) {
-  SmallScene s = with_inlet(endtim);
-  s.extra += "*DEFINE_CURVE\n9\n0.,0.3\n1.,0.15\n*COURANT_INFLOW\n1,3,0.,0.,0.,9\n1,4.\n0.2,0.02,0.,1\n";
-  s.extra += "*BOUNDARY_SPH_SYMMETRY_PLANE\n0.,0.,0.,0.,1.,0.\n" + std::string(test::gravity_cards);
-  return s;
-}
-
-TEST(Restart, InjectionWithAHeldLevel) {
-  const SmallScene scene = with_held_level("4.");
-  expect_same(scene, {0, 3, 60}, 200);
-}
-
 TEST(Restart, InjectionThatChangesWithAnotherEndTime) {
   const auto shorter = test::build(with_changing_inlet("0.4")),
              longer = test::build(with_changing_inlet("1.2"));
@@ -243,7 +229,7 @@ TEST(Restart, InjectionWithAnotherEndTime) {
 
 // The usual case: a run that has ended goes on.
 TEST(Restart, InjectionGoesOnBehindItsEnd) {
-  for (const auto& scene : {with_inlet, with_changing_inlet, with_held_level}) {
+  for (const auto& scene : {with_inlet, with_changing_inlet}) {
     const auto shorter = test::build(scene("0.4")), longer = test::build(scene("1.2"));
     ASSERT_TRUE(shorter && longer);
     while (shorter->clock().t < 0.4) steps(*shorter, 1), steps(*longer, 1);

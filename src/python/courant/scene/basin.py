@@ -168,7 +168,7 @@ class Basin:
         squares = [v[0] * v[0] + v[1] * v[1] + v[2] * v[2], *(inlet.speed**2 for inlet in self.inlets), *(speed**2 for speed in self.speeds_of_walls()),
                    *(float(np.dot(solid.velocity or (0.0, 0.0, 0.0), solid.velocity or (0.0, 0.0, 0.0))) + self.falls(solid, top, bottom) for solid in self.solids if solid.free)]
         speed = math.sqrt(2 * self.gravity * max(0.0, top - bottom) + max(squares))
-        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula and not inlet.held for inlet in self.inlets) or not np.isfinite(squares).all():
+        if not speed > 0 or self.water.velocity_of_place or any(inlet.formula for inlet in self.inlets) or not np.isfinite(squares).all():
             return "'sound_speed' is missing: it follows only from gravity, one velocity of all the water and steady inlets; give twenty times the largest speed"
         digits = math.pow(10, math.floor(math.log10(factor * speed)) - 1)  # two of them
         self.sound_speed = math.ceil(factor * speed / digits - 1e-9) * digits
@@ -228,7 +228,7 @@ class Basin:
         """Hydrostatic pressure of water at rest on the floor of its box, or between walls of any shape, all of it with one surface."""
         up = self.dim - 1
         level = self.level if self.level is not None else self._level_in_box()
-        flows = bool(self.inlets) and (self.inlets[0].surface is not None or bool(self.inlets[0].held)) and not self.water.velocity_of_place  # a channel
+        flows = bool(self.inlets) and self.inlets[0].surface is not None and not self.water.velocity_of_place  # a channel
         if level is None or not self.mirrors or self.gravity == 0 or not (self.starts_at_rest or flows):
             return None
         return PlaceExpression(f"{number_text(self.density * self.gravity)} * ({number_text(level)} - {'xyz'[up]})", self.water.where)

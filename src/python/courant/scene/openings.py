@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .model import Model
     from .basin_reader import BasinReader
 
-_OF_INLET = keys_of_map("an inlet", "at vector, direction vector, side text, depth number, width number, radius number, sides list, speed number, level number, head number, start number, end number")
+_OF_INLET = keys_of_map("an inlet", "at vector, direction vector, side text, depth number, width number, radius number, sides list, speed number!, start number, end number")
 _OF_OUTLET = keys_of_map("an outlet", "side text!, level number")
 _INLET = "- {at: [0, 0.8], direction: [1, 0], width: 0.1, speed: 1.5}"
 _OF_CHANNEL = "- {side: left, depth: 0.3, speed: 0.5}"
@@ -36,10 +36,8 @@ class Inlet:
     at: np.ndarray  # centre [L]
     direction: np.ndarray  # of the flow, a unit vector
     size: tuple[float, ...]  # radius; two sides of a rectangle; in the plane half of the width [L]
-    speed: float  # 0: of the formula, or it follows from the level [L/T]
-    formula: str = ""  # of TIME: of the speed, or of the level
-    level: float = 0.0  # of the water above the lower edge, where the discharge follows; 0: of the formula, or none [L]
-    held: str = ""  # "level": the surface at the inlet is held; "head": the energy head
+    speed: float  # 0: of the formula [L/T]
+    formula: str = ""  # of TIME
     start: float = 0.0
     end: float = 0.0  # 0: that of the run [T]
     surface: float | None = None  # height of the surface of the water that enters under its own pressure; None: a jet [L]
@@ -58,8 +56,6 @@ class Inlet:
 
     def length(self, end: float) -> float:
         """Of the water that enters before `end` [L]; infinite where the formula has functions that the program alone knows."""
-        if self.held:
-            return 1e30  # as much as flows
         if not self.formula:
             return self.speed * ((self.end or end) - self.start)
         times = np.linspace(self.start, self.end or end, _TIMES)
@@ -114,20 +110,9 @@ def _read_inlet(reader: BasinReader, node: Node, basin: Basin) -> None:
         reader.error(node, f"an inlet: expected {' or '.join(shapes)}", _INLET if basin.dim == 2 else "radius: 0.05, or sides: [0.1, 0.2]")
         return
     size = _size(reader, node, given[0])
-    flows = [key for key in ("speed", "level", "head") if reader.get(node, key) is not None]
-    if len(flows) != 1:
-        reader.error(node, "an inlet: expected a speed, or the level or the head that is held upstream", _INLET)
-        return
-    value, formula = _flow(reader, node, flows[0])
-    held = flows[0] if flows[0] != "speed" else ""
-    if held:
-        _check_held(reader, node, held, given[0], value, size[-1] * (2 if len(size) == 1 else 1), direction[basin.dim - 1] / (length or 1))
-    start, end = _times(reader, node)
+    speed, formula, start, end = _course(reader, node)
     if reader.diagnostics.errors == before:
-        speed, level = (0.0, value) if held else (value, 0.0)
-        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, level, held, start, end, where=reader.at(node)))
-        if len(basin.inlets) > 1 and any(inlet.held for inlet in basin.inlets):
-            reader.error(node, "an inlet beside another one that holds a level: one of them in a scene", "leave one of the two out")
+        basin.inlets.append(Inlet(np.array(at), np.array(direction) / length, size, speed, formula, start, end, where=reader.at(node)))
 
 
 def _read_channel(reader: BasinReader, node: Node, basin: Basin) -> None:
@@ -136,11 +121,6 @@ def _read_channel(reader: BasinReader, node: Node, basin: Basin) -> None:
     for key in ("at", "direction", "width", "radius", "sides"):
         if (entry := reader.get(node, key)) is not None:
             reader.error(entry, f"'{key}' does not go with 'side' and 'depth', which give it", _OF_CHANNEL)
-    for key in ("level", "head"):
-        if (entry := reader.get(node, key)) is not None:
-            reader.error(entry, f"'{key}' is held by an inlet with 'at', 'direction' and 'width'; an inlet with 'side' has a depth and a speed",
-                         "- {at: [0, 0.1], direction: [1, 0], width: 0.2, level: 0.2}")
-            return
     entry = reader.get(node, "side")
     ends = {"left": (0, 0), "right": (0, 1)} | ({"front": (1, 0), "back": (1, 1)} if basin.dim == 3 else {})
     side = reader.text(entry) if entry is not None else ""
@@ -153,11 +133,7 @@ def _read_channel(reader: BasinReader, node: Node, basin: Basin) -> None:
     if reader.get(node, "depth") is None:
         reader.error(node, "'depth' is missing: of the water that enters through the side", _OF_CHANNEL)
     depth = reader.length(node, "depth") if reader.get(node, "depth") is not None else 0.0
-    if reader.get(node, "speed") is None:
-        reader.error(node, "'speed' is missing: of the water that enters through the side", _OF_CHANNEL)
-        return
-    speed, formula = _flow(reader, node, "speed")
-    start, end = _times(reader, node)
+    speed, formula, start, end = _course(reader, node)
     if not basin.gravity > 0:
         reader.error(node, "an inlet with a depth, and there is no gravity", "at, direction and width give a jet")
     if reader.diagnostics.errors > before or basin.box is None:
@@ -170,26 +146,17 @@ def _read_channel(reader: BasinReader, node: Node, basin: Basin) -> None:
     size = (depth / 2,) if basin.dim == 2 else (float((high - low)[1 - axis]), depth)
     if basin.dim == 2:
         at[2] = 0.0
-    basin.inlets.append(Inlet(at, direction, size, speed, formula, start=start, end=end, surface=float(low[up] + depth), where=reader.at(node)))
+    basin.inlets.append(Inlet(at, direction, size, speed, formula, start, end, float(low[up] + depth), reader.at(node)))
 
 
-def _times(reader: BasinReader, node: Node) -> tuple[float, float]:
-    """The times between which water enters."""
+def _course(reader: BasinReader, node: Node) -> tuple[float, str, float, float]:
+    """Speed, or its formula, and the times between which water enters."""
+    speed, formula = _speed(reader, node)
     start = reader.number(reader.get(node, "start"), "start") or 0.0 if reader.get(node, "start") is not None else 0.0  # type: ignore[arg-type]
     end = reader.length(node, "end", "time") if reader.get(node, "end") is not None else 0.0
     if start < 0 or (end and end <= start):
         reader.error(node, "an inlet: 'start' is a time >= 0, 'end' one behind it")
-    return start, end
-
-
-def _check_held(reader: BasinReader, node: Node, key: str, shape: str, level: float, height: float, slope: float) -> None:
-    """A level is that of the water above the lower edge of an upright inlet, which begins on the bed."""
-    if shape == "radius":
-        reader.error(node, f"{key}: of an inlet as wide at any depth", "sides: [1, 0.5], the width and the height of the inlet, instead of radius")
-    if abs(slope) > 0.1:
-        reader.error(node, f"{key}: of an inlet through which water comes in along the bed", "direction: [1, 0]")
-    if level > height * (1 + 1e-9):
-        reader.error(node, f"{key}: {level:g} is above the upper edge of the inlet, {height:g} above its lower one", "make the inlet at least as high as the level")
+    return speed, formula, start, end
 
 
 def check_inlets(reader: BasinReader, basin: Basin) -> None:
@@ -241,16 +208,16 @@ def _size(reader: BasinReader, node: Node, key: str) -> tuple[float, ...]:
     return reader.length_of(entry.value[0], "sides"), reader.length_of(entry.value[1], "sides")
 
 
-def _flow(reader: BasinReader, node: Node, key: str) -> tuple[float, str]:
-    """A speed or a level: a number, or a formula of TIME."""
-    entry = reader.get(node, key)
+def _speed(reader: BasinReader, node: Node) -> tuple[float, str]:
+    """A number, or a formula of TIME."""
+    entry = reader.get(node, "speed")
     if entry is not None and is_scalar(entry) and "TIME" in entry.value:
         try:
             return 0.0, substitute(entry.value, reader.variables)
         except PlaceholderFault as fault:
             reader.error(entry, fault.message)
             return 0.0, ""
-    return reader.length(node, key, f"{key}, or a formula of TIME,"), ""
+    return reader.length(node, "speed", "speed, or a formula of TIME,"), ""
 
 
 def _read_outlet(reader: BasinReader, node: Node, basin: Basin) -> None:
@@ -279,16 +246,11 @@ def add_openings(basin: Basin, model: Model) -> None:
     """Cards of inlets and outlets."""
     for number, inlet in enumerate(basin.inlets):
         model.keywords.append(_inlet_cards(inlet, number, basin))
-        how = f"formula {inlet.formula}" if inlet.formula else f"{inlet.level or inlet.speed:g}"
+        how = f"formula {inlet.formula}" if inlet.formula else f"{inlet.speed:g}"
         at = ", ".join(f"{v:g}" for v in inlet.at[: basin.dim])
-        card = "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED")
-        if inlet.held:
-            model.choices.append((f"water enters at ({at}), {inlet.held} {how} above the lower edge", "the discharge follows from the flow inside, up to critical flow",
-                                  card + ", *COURANT_INFLOW SURF 3"))
-        else:
-            model.choices.append((f"water enters at ({at}), speed {how}", "given" if inlet.surface is None else
-                                  f"given; under the pressure below its surface at {inlet.surface:g}, so that it joins the water of a channel",
-                                  card + ("" if inlet.surface is None else ", *COURANT_INFLOW")))
+        model.choices.append((f"water enters at ({at}), speed {how}", "given" if inlet.surface is None else
+                              f"given; under the pressure below its surface at {inlet.surface:g}, so that it joins the water of a channel",
+                              "*DEFINE_SPH_INJECTION" + ("" if len(inlet.size) > 1 else "_SIMPLIFIED") + ("" if inlet.surface is None else ", *COURANT_INFLOW")))
     if basin.inlets and (surface := basin.inlets[0].surface) is not None:
         point = [0.0, surface, 0.0] if basin.dim == 2 else [0.0, 0.0, surface]
         model.keywords.append("*COURANT_INFLOW\n$#     pid      surf        xs        ys        zs\n" + _row(1, 2, *point))
@@ -309,32 +271,20 @@ def _inlet_cards(inlet: Inlet, number: int, basin: Basin) -> str:
     end = inlet.end or 1e20
     if inlet.formula:
         out += f"*DEFINE_CURVE_FUNCTION\n$#    lcid\n{curve:10}\n{inlet.formula}\n"
-    prescribed = inlet.formula and not inlet.held
-    if inlet.held:
-        out += _level_cards(inlet, curve, basin)
     if len(inlet.size) == 1:
-        speed = -float(curve) if prescribed else inlet.speed or 1.0  # where a level is held, only the direction counts
+        speed = -float(curve) if inlet.formula else inlet.speed
         return (out + "*DEFINE_SPH_INJECTION_SIMPLIFIED\n$#     pid       vel    radius     psize     offst       cid       nid\n"
                 + _row(1, speed, inlet.size[0], basin.spacing, 0.0, 0, 0) + "$#      xc        yc        zc       dnx       dny       dnz      tbeg      tend\n"
                 + _row(*inlet.at.tolist(), *inlet.direction.tolist(), inlet.start, end))
     first, second = across(inlet.direction)
-    velocity = inlet.direction * (1.0 if prescribed else inlet.speed or 1.0)
+    velocity = inlet.direction * (1.0 if inlet.formula else inlet.speed)
     system = FIRST_SYSTEM + number
     out += "*DEFINE_COORDINATE_SYSTEM\n$#     cid        xo        yo        zo        xl        yl        zl\n"
     out += _row(system, *inlet.at.tolist(), *(inlet.at + first).tolist()) + "$#      xp        yp        zp\n" + _row(*(inlet.at + second).tolist())
     return (out + "*DEFINE_SPH_INJECTION\n$#     pid      nsid       cid        vx        vy        vz      area      vmag\n"
-            + _row(1, 0, system, *velocity.tolist(), 0.0, -curve if prescribed else 0)
+            + _row(1, 0, system, *velocity.tolist(), 0.0, -curve if inlet.formula else 0)
             + "$#    tbeg      tend       nid    radius      xlen      ylen     psize\n"
             + _row(inlet.start, end, 0, 0.0, *inlet.size, basin.spacing))
-
-
-def _level_cards(inlet: Inlet, curve: int, basin: Basin) -> str:
-    """The held level: a point on it, or on the lower edge with a curve of what is above."""
-    point = inlet.at.copy()
-    point[basin.dim - 1] += inlet.level - (inlet.size[-1] if len(inlet.size) == 1 else inlet.size[-1] / 2)
-    return ("*COURANT_INFLOW\n$#     pid      surf        xs        ys        zs     lclev\n" + _row(1, 3, *point.tolist(), curve if inlet.formula else 0)
-            + "$#    prof      expo        ks    lcprof\n" + _row(0, 7.0, 0.0, 0)
-            + "$#    dist       tau      qmax      head\n" + _row(0.0, 0.0, 0.0, int(inlet.held == "head")))
 
 
 def across(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -198,16 +198,13 @@ class Scene:
         self._append(("joints",), {"kind": kind, "between": list(between), "at": at, **{key: value for key, value in given.items() if value is not None}}, _caller())
         return self
 
-    def inlet(self, at: Point | None = None, direction: Point | None = None, *, speed: Number | None = None, level: Number | None = None,
-              head: Number | None = None, width: Number | None = None, radius: Number | None = None, sides: Sequence[Number] | None = None,
-              start: Number | None = None, end: Number | None = None, side: str | None = None, depth: Number | None = None) -> Scene:
-        """With `side` and `depth` [L] the inflow of a channel through an open side of the box, which joins the water there. Otherwise water that enters around the
-        point `at` along `direction`: in the plane through a `width`, in space through a circle of a `radius` or a rectangle of two `sides`, the second the more upright
-        one [L]; from `start` to `end` [T]. With a `speed` [L/T], a number or a formula of TIME, it is a jet; with a `level` of the surface or an energy `head` above the
-        lower edge of the inlet [L], which begins on the bed, the discharge follows from the flow inside."""
-        given = {"at": at, "direction": direction, "side": side, "depth": depth, "speed": speed, "level": level, "head": head, "width": width, "radius": radius, "sides": sides,
-                 "start": start, "end": end}
-        self._append(("inlets",), {key: value for key, value in given.items() if value is not None}, _caller())
+    def inlet(self, at: Point | None = None, direction: Point | None = None, *, speed: Number, width: Number | None = None, radius: Number | None = None,
+              sides: Sequence[Number] | None = None, start: Number | None = None, end: Number | None = None, side: str | None = None,
+              depth: Number | None = None) -> Scene:
+        """With `side` and `depth` [L] the inflow of a channel through an open side of the box, which joins the water there. Otherwise a jet: water that enters around the point `at` along `direction`, with a `speed` [L/T], a number or a formula of TIME: in the plane through a `width`, in
+        space through a circle of a `radius` or a rectangle of two `sides`, the second the more upright one [L]; from `start` to `end` [T]."""
+        given = {"at": at, "direction": direction, "side": side, "depth": depth, "width": width, "radius": radius, "sides": sides, "start": start, "end": end}
+        self._append(("inlets",), {"speed": speed, **{key: value for key, value in given.items() if value is not None}}, _caller())
         return self
 
     def outlet(self, side: str, level: Number | None = None) -> Scene:
