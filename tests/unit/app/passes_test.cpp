@@ -273,7 +273,7 @@ TEST(Passes, DensityDiffusion) {
   expect_change(scene, {"density diffusion"},
                 {"rates density diffusion", "preparation potential of body loads"});
   scene.extra = "*COURANT_VOLUME_CONTROL\n0.1\n";
-  expect_change(scene, {"volume control"}, {"rates volume control"});
+  expect_change(scene, {"volume control"}, {"rates volume control", "time limit volume control"});
   scene.extra = "*COURANT_DENSITY_REINITIALISATION\n20\n";
   expect_change(scene, {"re-initialisation"}, {"rates density re-initialisation"});
 }
@@ -313,7 +313,8 @@ TEST(Passes, Drifts) {
 TEST(Passes, PrescribedMotionOfParticles) {
   SmallScene scene;
   scene.extra = "*DEFINE_CURVE\n9\n0.,0.\n1.,1.\n*BOUNDARY_PRESCRIBED_MOTION_NODE\n1,1,0,9\n";
-  expect_change(scene, {"prescribed motion"}, {"energy prescribed particles", "drive prescribed particles"});
+  expect_change(scene, {"prescribed motion"},
+                {"energy prescribed particles", "drive prescribed particles", "impact prescribed particles"});
 }
 
 TEST(Passes, FrozenGradients) {
