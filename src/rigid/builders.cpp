@@ -58,7 +58,8 @@ void add_moments(const Model& model, const World& world, const WallBodies& walls
   std::map<Id, Index> node_of_id;
   for (const NodalLoad& load : loads.nodal) {
     if (!load.turns) continue;
-    for (Index n = 0; node_of_id.empty() && n < world.nodes.size(); ++n) node_of_id[world.nodes.id[n]] = n;
+    if (node_of_id.empty())
+      for (Index n = 0; n < world.nodes.size(); ++n) node_of_id[world.nodes.id[n]] = n;
     for (const Index n : load.nodes) {
       const auto node = node_of_id.find(model.nodes[static_cast<std::size_t>(n)].id);
       const Index body = node == node_of_id.end() ? -1 : walls.body(node->second);

@@ -13,7 +13,7 @@ void RigidBodies::set_damping(std::vector<Damping> damping, const Model& model, 
     for (const Index part : b.parts)
       for (const Damping& d : damping_) {
         const auto is_equal = [&](const Damping& other) {
-          return other.acts_on(b.part_index) && other.sf == d.sf && other.scale == d.scale &&
+          return other.acts_on(b.parts.front()) && other.sf == d.sf && other.scale == d.scale &&
                  other.turn_scale == d.turn_scale && other.curve.abscissa == d.curve.abscissa &&
                  other.curve.ordinate == d.curve.ordinate;
         };
@@ -36,7 +36,8 @@ void RigidBodies::damp(const Clock& clock) {
     if (b.fixed()) continue;
     Vec D = Vec::Zero(), of_turns = Vec::Zero();
     for (const Damping& d : damping_) {
-      if (d.acts_on(b.part_index)) D += d.at(clock.t) * d.scale, of_turns += d.at(clock.t) * d.turn_scale;
+      if (d.acts_on(b.parts.empty() ? -1 : b.parts.front()))
+        D += d.at(clock.t) * d.scale, of_turns += d.at(clock.t) * d.turn_scale;
     }
     const Vec force = b.force, moment = b.moment, half = Vec::Constant(0.5 * clock.dt_old);
     b.force = (force - b.m * D.cwiseProduct(b.v)).cwiseQuotient(Vec::Ones() + D.cwiseProduct(half));

@@ -174,7 +174,8 @@ TornJoint tear_joint(const std::string& card, const Vec& direction) {
       card +
       "*CONTROL_TIMESTEP\n0.0,0.2\n*BOUNDARY_SPC_SET\n1,0,1,1,1\n*DEFINE_CURVE\n1\n0.0,0.1\n10.0,0.1\n";
   for (int k = 0; k < 3; ++k)
-    deck.cards += fmt::format("*BOUNDARY_PRESCRIBED_MOTION_SET\n2,{},0,1,{}\n", k + 1, direction[k]);
+    deck.cards += fmt::format("*BOUNDARY_PRESCRIBED_MOTION_SET\n2,{},0,1,{}\n", k + 1,
+                              direction[k] != 0 ? direction[k] : 1e-12);  // 0 is 1
   deck.node_set(1, [](const Vec& x) { return x[2] < 1; });
   deck.node_set(2, [](const Vec& x) { return x[2] > 1 + 1e-9; });
   // the faces of the joint belong to nodes that are driven, or free to follow springs of the bulk
