@@ -167,11 +167,7 @@ class TiedBuilder {
                        : c.param != 0)
       error(c, "PARAM", fmt::format("expected {}, got '{:g}'", softens(c) ? "an opening > 0" : "0", c.param),
             "with OPTION 6 and 8 the opening at which nothing holds any more, else none");
-    for (const auto& [field, value] : {std::pair("ERATEN", c.eraten), std::pair("ERATES", c.erates),
-                                       std::pair("CT2CN", c.ct2cn), std::pair("CN", c.cn)})
-      if (by_option && !is_cohesive(c) && value > 0)
-        deck_.warning(diagnostics_, c, field, fmt::format("OPTION {} does not use it", c.option),
-                      "OPTION 9 and 11 are cohesive joints, with energies and stiffnesses");
+    if (by_option && !is_cohesive(c)) warn_of_cohesive_fields(c, deck_, diagnostics_);
     if (c.bt > 0) error(c, "BT", "what holds from the start has no birth", "leave it blank");
     if (world_.particles.size() > 0 && kind_of(c).nodes)
       error(c, "SURFA", "particles cannot be held at faces", "use the contact without _TIEBREAK");

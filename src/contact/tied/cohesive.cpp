@@ -8,6 +8,14 @@
 
 namespace courant {
 
+void warn_of_cohesive_fields(const ContactCard& c, const Deck& deck, Diagnostics& diagnostics) {
+  for (const auto& [field, value] : {std::pair("ERATEN", c.eraten), std::pair("ERATES", c.erates),
+                                     std::pair("CT2CN", c.ct2cn), std::pair("CN", c.cn)})
+    if (value > 0)
+      deck.warning(diagnostics, c, field, fmt::format("OPTION {} does not use it", c.option),
+                   "OPTION 9 and 11 are cohesive joints, with energies and stiffnesses");
+}
+
 bool read_cohesive(const ContactCard& c, Real slsfac, std::vector<Tie>& ties, CohesiveLaw& law,
                    const std::function<void(const char* field, std::string what, const char* hint)>& error) {
   for (const auto& [field, value] : {std::pair("ERATEN", c.eraten), std::pair("ERATES", c.erates)})

@@ -59,6 +59,8 @@ struct CohesiveLaw {
 inline bool is_cohesive(const ContactCard& card) {
   return kind_of(card).tiebreak == Tiebreak::by_option && (card.option == 9 || card.option == 11);
 }
+/// Warns of energies and stiffnesses that another OPTION does not use.
+void warn_of_cohesive_fields(const ContactCard& card, const Deck& deck, Diagnostics& diagnostics);
 /// The law of such a card; ties get its stiffness, for the step. False with errors: energies
 /// that are missing or less than the joint takes up to its peak, nodes without an area.
 bool read_cohesive(const ContactCard& card, Real slsfac, std::vector<Tie>& ties, CohesiveLaw& law,
