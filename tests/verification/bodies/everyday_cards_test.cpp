@@ -169,7 +169,7 @@ TornJoint tear_joint(const std::string& card, const Vec& direction) {
   deck.block(Vec(1, 1, 1), 2, 2, 1, 1);
   deck.block(Vec(1, 1, 1), 2, 2, 1, 2, [](const Vec& x) { return Vec(x + Vec(0, 0, 1)); });
   deck.cards =
-      "*SECTION_SOLID\n1,2\n*PART\nbelow\n1,1,1\n*PART\nabove\n2,1,1\n*MAT_ELASTIC\n1,1000.0,1.0E9,0.0\n"
+      "*SECTION_SOLID\n1,2\n*PART\nbelow\n1,1,1\n*PART\nabove\n2,1,1\n*MAT_ELASTIC\n1,1000.0,1.0E10,0.0\n"
       "*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_TIEBREAK_ID\n7,glue\n2,1,3,3\n\n\n" +
       card +
       "*CONTROL_TIMESTEP\n0.0,0.2\n*BOUNDARY_SPC_SET\n1,0,1,1,1\n*DEFINE_CURVE\n1\n0.0,0.1\n10.0,0.1\n";
