@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "sph/cards.hpp"
-#include "sph/inlets/inlet_flow.hpp"
 #include "sph/inlets/injection.hpp"
+#include "sph/inlets/inlet_flow.hpp"
 #include "sph/materials/initial_stress.hpp"
 #include "state/shared_fields.hpp"
 

@@ -580,10 +580,10 @@ ByPaths by_paths(const WallPaths& paths, const Crowd& crowd, std::size_t i, int 
     for (const WallPath& path : earlier) {
       if (path.weight > 0 || path.across)
         out.sum[path.weight > 0 ? 0 : 1] += crowd.V[j] * kernel(path.d) * path.by_i.norm();
-      out.rate += crowd.V[j] *
-                  (path.weight * slope(path.d) * (crowd.velocity(i) - path.turn * crowd.velocity(j)).dot(path.d) +
-                   crowd.kept(i, j) * kernel(path.d) *
-                       (path.by_i.dot(crowd.velocity(i)) + path.by_j.dot(crowd.velocity(j))));
+      out.rate += crowd.V[j] * (path.weight * slope(path.d) *
+                                    (crowd.velocity(i) - path.turn * crowd.velocity(j)).dot(path.d) +
+                                crowd.kept(i, j) * kernel(path.d) *
+                                    (path.by_i.dot(crowd.velocity(i)) + path.by_j.dot(crowd.velocity(j))));
     }
     paths.add(sheets, static_cast<Index>(i), crowd.at(i), static_cast<Index>(j), crowd.at(j), 2 * h, now);
     for (const WallPath& path : now)
@@ -664,7 +664,7 @@ struct Exchange {
 
 /// As WallImages follows the paths of particle i one by one where walls move.
 Exchange by_moving_paths(const WallPaths& middle, const WallPaths& end, const WallPaths::Sheets& around,
-                        const Crowd& crowd, std::size_t i, int dim) {
+                         const Crowd& crowd, std::size_t i, int dim) {
   const AnyKernel& kernel = any_kernel(KernelChoice::cubic_spline);
   const Real norm = kernel.C(dim) / (dim == 2 ? h * h : h * h * h);
   const auto W = [&](const Vec& d) { return norm * kernel.shape(d.norm() / h); };
