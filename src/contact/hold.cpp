@@ -24,23 +24,18 @@ struct Contact::Supports {
   class FreeAxes {
    public:
     explicit FreeAxes(const FieldSet& fields)
-        : held_(shared_fields::held_axes.find(fields)),
-          driven_(shared_fields::prescribed_motion.find(fields)),
-          projector_(shared_fields::driven_projector.find(fields)) {}
-    bool is_driven(Index i) const { return driven_ && (*driven_)[i]; }
+        : held_(shared_fields::held_axes.find(fields)), driven_(fields) {}
+    bool is_driven(Index i) const { return driven_.any(i); }
     Vec part_of(Vec force, Index i) const {
-      if (is_driven(i)) {
-        if (!projector_) return Vec::Zero();
-        force -= driven_part(*projector_, i, force);
-      }
+      force = driven_.across(i, force);
       for (int k = 0; held_ && k < 3; ++k)
         if ((*held_)[i] & (1 << k)) force[k] = 0;
       return force;
     }
 
    private:
-    const Field<Index>*held_, *driven_;
-    const Field<Real>* projector_;  ///< on the directions of the last step
+    const Field<Index>* held_;
+    DrivenPoints driven_;
   };
   FreeAxes particles, nodes;
 

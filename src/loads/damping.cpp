@@ -132,7 +132,7 @@ class DampingReader {
 class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
  public:
   MassDamping(std::vector<Damping> damping, Points points)
-      : damping_(std::move(damping)), points_(points), across_(points) {
+      : damping_(std::move(damping)), points_(points), driven_(points) {
     for (const Damping& d : damping_) by_parts_ = by_parts_ || !d.parts.empty();
     held_axes_ = points_.held().find(*points_.set);
   }
@@ -142,7 +142,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
     if (points_.follow) a.reads(*points_.follow);
     if (by_parts_ && points_.part) a.reads(*points_.part);
-    across_.declare(a);
+    driven_.declare(a);
     if (held_axes_) a.reads(*held_axes_);
   }
 
@@ -151,20 +151,20 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     for (const Damping& d : damping_)
       constants_.push_back(d.at(clock.t) * (points_.turns ? d.turn_scale : d.scale));
     half_ = 0.5 * clock.dt_old;
-    if (across_.any()) taken_.resize(static_cast<std::size_t>(points_.fields().size()), Vec::Zero());
+    if (driven_.any()) taken_.resize(static_cast<std::size_t>(points_.fields().size()), Vec::Zero());
   }
   void block(World&, const Clock&, Index begin, Index end) override {
     for (Index i = begin; i < end; ++i) {
       if (points_.follow && (*points_.follow)[i]) continue;
       const Vec D = constant(i);
-      const bool driven = across_.any(i);
+      const bool driven = driven_.any(i);
       const Vec before = driven ? points_.f->vec(i) : Vec(Vec::Zero());
       for (int k = 0; k < 3; ++k) {
         Real& f = points_.f->data(k)[i];
         f = (f - D[k] * (*points_.m)[i] * points_.v->data(k)[i]) / (1 + D[k] * half_);
       }
       if (!driven) continue;
-      taken_[static_cast<std::size_t>(i)] = across_(i, points_.f->vec(i) - before);
+      taken_[static_cast<std::size_t>(i)] = driven_.across(i, points_.f->vec(i) - before);
       points_.f->set(i, before + taken_[static_cast<std::size_t>(i)]);
     }
   }
@@ -182,7 +182,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
       if (points_.follow && (*points_.follow)[i]) return 0;
       const Vec D = constant(i);
       const Vec force = D.cwiseProduct((*points_.m)[i] * points_.v->vec(i) + half_ * points_.f->vec(i));
-      return (across_.any(i) ? Vec(-taken_[static_cast<std::size_t>(i)]) : force).dot(v(i)) * clock.dt_mean();
+      return (driven_.any(i) ? Vec(-taken_[static_cast<std::size_t>(i)]) : force).dot(v(i)) * clock.dt_mean();
     });
     ledger.dissipated += lost;
     ledger.throughput += std::abs(lost);
@@ -195,8 +195,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
     Vec sum = Vec::Zero();
     const Index part = by_parts_ && points_.part ? (*points_.part)[i] : -1;
     for (std::size_t k = 0; k < damping_.size(); ++k) {
-      const std::vector<Index>& parts = damping_[k].parts;
-      if (parts.empty() || std::binary_search(parts.begin(), parts.end(), part)) sum += constants_[k];
+      if (damping_[k].acts_on(part)) sum += constants_[k];
     }
     for (int k = 0; held_axes_ && k < 3; ++k)
       if ((*held_axes_)[i] & (1 << k)) sum[k] = 0;
@@ -205,7 +204,7 @@ class MassDamping : public Constraint, public TimeLimit, public EnergyTerm {
 
   std::vector<Damping> damping_;
   Points points_;
-  AcrossDrives across_;
+  DrivenPoints driven_;
   std::vector<Vec> taken_;  ///< of driven points: what damping added to their forces [ML/T2]
   bool by_parts_ = false;
   const Field<Index>* held_axes_ = nullptr;  ///< null: there are none

@@ -18,7 +18,7 @@ namespace {
 class RangeDamping : public Constraint, public EnergyTerm {
  public:
   RangeDamping(const std::vector<FrequencyRange>& of_part, Points points)
-      : of_part_(of_part), points_(points), across_(points) {
+      : of_part_(of_part), points_(points), driven_(points) {
     std::size_t most = 0;
     for (const FrequencyRange& range : of_part_) most = std::max(most, range.time.size());
     const std::string what = points.turns ? "turning_behind_mechanisms" : "velocity_behind_mechanisms";
@@ -39,7 +39,7 @@ class RangeDamping : public Constraint, public EnergyTerm {
     a.updates(*behind_).updates(*last_).updates(*force_);
     if (points_.follow) a.reads(*points_.follow);
     if (held_axes_) a.reads(*held_axes_);
-    across_.declare(a);
+    driven_.declare(a);
   }
 
   void start(World&, const Clock& clock) override {
@@ -68,8 +68,8 @@ class RangeDamping : public Constraint, public EnergyTerm {
         const Real damped = (f - (*points_.m)[i] * resists) / (1 + gives);
         force = damped - f, f = damped;
       }
-      if (!across_.any(i)) continue;
-      const Vec all = force_->vec(i), across = across_(i, all);
+      if (!driven_.any(i)) continue;
+      const Vec all = force_->vec(i), across = driven_.across(i, all);
       force_->set(i, across), points_.f->add(i, across - all);
     }
   }
@@ -107,7 +107,7 @@ class RangeDamping : public Constraint, public EnergyTerm {
 
   std::vector<FrequencyRange> of_part_;
   Points points_;
-  AcrossDrives across_;
+  DrivenPoints driven_;
   Field<Real>*behind_, *last_, *force_;
   const Field<Index>* held_axes_;         ///< null: there are none
   std::vector<std::vector<Step>> steps_;  ///< of each part, of each mechanism

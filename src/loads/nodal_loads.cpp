@@ -37,25 +37,21 @@ class NodalLoadReader {
         world_(world),
         diagnostics_(diagnostics),
         has_rotations_(shared_fields::no_rotation.find(world.nodes.fields) != nullptr) {
-    of_bodies_.assign(model.nodes.size(), 0);
     for (std::size_t n = 0; n < model.nodes.size(); ++n)
       node_of_id_[model.nodes[n].id] = static_cast<Index>(n);
-    is_loaded_.assign(model.nodes.size(), 0);
+    for (auto* chosen : {&is_loaded_, &turns_, &of_bodies_}) chosen->assign(model.nodes.size(), 0);
     for (const ModelSph& s : model.sph) is_loaded_[static_cast<std::size_t>(s.node)] = 1;
     const Nodes& nodes = world.nodes;
     const std::set<Id> hand_on = interpolated_nodes(deck);
-    for (Index i = 0; i < nodes.size(); ++i)
-      if (const auto n = node_of_id_.find(nodes.id[i]);
-          n != node_of_id_.end() && (nodes.follow[i] < 2 || hand_on.contains(nodes.id[i])))
-        is_loaded_[static_cast<std::size_t>(n->second)] = 1;
-    for (Index i = 0; i < nodes.size(); ++i)
-      if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && nodes.follow[i] == 1)
-        of_bodies_[static_cast<std::size_t>(n->second)] = 1, some_of_bodies_ = true;
-    turns_.assign(model.nodes.size(), 0);
     const Field<Index>* none = shared_fields::no_rotation.find(nodes.fields);
-    for (Index i = 0; none && i < nodes.size(); ++i)
-      if (const auto n = node_of_id_.find(nodes.id[i]); n != node_of_id_.end() && (*none)[i] == 0)
-        turns_[static_cast<std::size_t>(n->second)] = 1;
+    for (Index i = 0; i < nodes.size(); ++i) {
+      const auto found = node_of_id_.find(nodes.id[i]);
+      if (found == node_of_id_.end()) continue;
+      const auto n = static_cast<std::size_t>(found->second);
+      if (nodes.follow[i] < 2 || hand_on.contains(nodes.id[i])) is_loaded_[n] = 1;
+      if (nodes.follow[i] == 1) of_bodies_[n] = 1, some_of_bodies_ = true;
+      if (none && (*none)[i] == 0) turns_[n] = 1;
+    }
   }
 
   void add(const LoadNodeCard& card, const char* field, std::vector<Index> nodes) {

@@ -32,7 +32,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
   /// `damping`: of each node of the world [M/T]
   WaveDampers(const std::map<Index, Matrix>& damping, World& world)
       : points_(points_of(world.nodes)),
-        across_(points_),
+        driven_(points_),
         at_(static_cast<std::size_t>(world.nodes.size()), -1) {
     for (const auto& [n, C] : damping) {
       at_[static_cast<std::size_t>(n)] = static_cast<Index>(nodes_.size());
@@ -44,7 +44,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
   const FieldSet& over(const World&) const override { return points_.fields(); }
   void declare(const World&, Accesses& a) const override {
     a.reads(*points_.v).reads(*points_.m).revises(*points_.f);
-    across_.declare(a);
+    driven_.declare(a);
   }
   void start(World&, const Clock& clock) override { half_ = 0.5 * clock.dt_old; }
   void block(World&, const Clock&, Index begin, Index end) override {
@@ -56,7 +56,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
       const Vec v = points_.v->vec(n), f = points_.f->vec(n);
       const Matrix more = Matrix::Identity() + half_ / (*points_.m)[n] * C;
       const Vec after = more.inverse() * (f - C * v);
-      force_[k] = across_(n, after - f);
+      force_[k] = driven_.across(n, after - f);
       points_.f->set(n, f + force_[k]);
     }
   }
@@ -71,7 +71,7 @@ class WaveDampers : public Constraint, public EnergyTerm {
 
  private:
   Points points_;
-  AcrossDrives across_;
+  DrivenPoints driven_;
   std::vector<Index> at_;  ///< of each node of the world its position below; -1: none
   std::vector<Index> nodes_;
   std::vector<Matrix> damping_;

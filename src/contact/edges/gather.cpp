@@ -166,7 +166,7 @@ void EdgeContact::record(World& world, const Clock& clock, EnergyLedger& ledger)
   ledger.dissipated += let_go_, ledger.throughput += let_go_;
   damping_work_ += let_go_, let_go_ = 0;
   if (!drag_on_) return;
-  const auto* driven = shared_fields::prescribed_motion.find(world.nodes.fields);
+  const DrivenPoints driven(world.nodes.fields);
   Real damping = 0, friction = 0;
   for (const Touch& touch : touches_) {
     if (!(touch.depth > 0)) continue;

@@ -142,7 +142,7 @@ void NodeContact::record(World& world, const Clock& clock, EnergyLedger& ledger)
   ledger.dissipated += let_go_, ledger.throughput += let_go_;
   damping_work_ += let_go_, let_go_ = 0;
   if (!drag_on_ || touches_.empty()) return;
-  const auto* driven = shared_fields::prescribed_motion.find(world.nodes.fields);
+  const DrivenPoints driven(world.nodes.fields);
   struct Work {
     Real damping = 0, friction = 0;
   };

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "state/driven_points.hpp"
-
 namespace courant {
 
 Vec friction_of(const Friction& mu, const Vec& old, const Vec& n, const Vec& v, Real k_dt, Real fn,
@@ -47,20 +45,13 @@ TimeLimit::Limit limit_of(const NodeContactLaw& law, const StiffestContact& stif
 }
 
 Vec middle_velocity(const World& world, const WallBodies& bodies, const Clock& clock,
-                    const Field<Index>* driven, Index n) {
+                    const DrivenPoints& driven, Index n) {
   const Nodes& nodes = world.nodes;
   const Vec v = nodes.v.vec(n);
   if (nodes.held[n]) return v;
-  if (driven && (*driven)[n] != 0) {
-    const auto *projector = shared_fields::driven_projector.find(nodes.fields),
-               *change = shared_fields::driven_change.find(nodes.fields);
-    if (!projector || !change) return v;
-    const Vec by_forces = 0.5 * clock.dt_mean() / nodes.m[n] * nodes.f.vec(n);
-    return v + by_forces - driven_part(*projector, n, by_forces) + 0.5 * change->vec(n);
-  }
-  const Index body = bodies.body(n);
-  if (body >= 0) return v + 0.5 * bodies.change(body, nodes.x.vec(n), clock);
-  return v + 0.5 * clock.dt_mean() / nodes.m[n] * nodes.f.vec(n);
+  if (const Index body = bodies.body(n); body >= 0 && !driven.any(n))
+    return v + 0.5 * bodies.change(body, nodes.x.vec(n), clock);
+  return driven.velocity_after(n, v, 0.5 * clock.dt_mean() / nodes.m[n] * nodes.f.vec(n), 0.5);
 }
 
 }  // namespace courant

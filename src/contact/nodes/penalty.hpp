@@ -6,6 +6,7 @@
 #include <string>
 
 #include "contact/nodes/law.hpp"
+#include "state/driven_points.hpp"
 #include "state/restartable.hpp"
 #include "state/wall_bodies.hpp"
 #include "state/world.hpp"
@@ -50,9 +51,8 @@ struct StiffestContact {
 TimeLimit::Limit limit_of(const NodeContactLaw& law, const StiffestContact& stiffest, Real due, Real part,
                           const std::string& name, const World& world);
 
-/// Mean over the step about to be taken; of driven nodes, which do not follow their forces, that before.
-/// [L/T]
+/// Mean over the step about to be taken. [L/T]
 Vec middle_velocity(const World& world, const WallBodies& bodies, const Clock& clock,
-                    const Field<Index>* driven, Index node);
+                    const DrivenPoints& driven, Index node);
 
 }  // namespace courant

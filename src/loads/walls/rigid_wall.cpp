@@ -66,9 +66,7 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     force_.setZero(), normal_ = 0, next_ = speed_, near_ = std::move(near);
     for (HeldPoints& set : sets_) {
       set.axes = shared_fields::held_axes.find(*set.points.set);
-      set.driven = shared_fields::prescribed_motion.find(*set.points.set);
-      set.projector = shared_fields::driven_projector.find(*set.points.set);
-      set.change = shared_fields::driven_change.find(*set.points.set);
+      set.driven.emplace(set.points);
     }
   }
   void clear(std::size_t set, Index begin, Index end) {
@@ -192,15 +190,13 @@ class RigidWall : public EnergyTerm, public RigidWallReporter, public Restartabl
     const WallShape::Near near = nearest(x);
     a.n = a.along = near.n;
     constexpr Real along_wall = 1e-9;  // cosine
-    const bool driven = set.driven && (*set.driven)[i] != 0;
-    if (driven && (!set.projector || driven_part(*set.projector, i, near.n).norm() > along_wall)) return a;
+    if (set.driven->any(i) && set.driven->along(i, near.n).norm() > along_wall) return a;
     for (int k = 0; k < 3; ++k)
       if ((set.axes && (*set.axes)[i] & (1 << k)) || k >= dim) a.along[k] = 0, a.confined = true;
     constexpr Real free_enough = 1e-12;
     const Real share = a.along.squaredNorm(), m = (*set.points.m)[i];
     if (share < free_enough) return a;
-    a.v = set.points.v->vec(i) + others * (clock.dt_mean() / m);
-    if (driven) a.v += set.change->vec(i) - driven_part(*set.projector, i, others) * (clock.dt_mean() / m);
+    a.v = set.driven->velocity_after(i, set.points.v->vec(i), others * (clock.dt_mean() / m), 1);
     a.welded = state == 2;
     a.held = a.welded || wall_.shape.meets(x + (a.v - drive_) * clock.dt - moved_, near.gap);
     a.inertia = m / share;

@@ -9,6 +9,7 @@
 #include "loads/walls/wall_penalty.hpp"
 #include "loads/walls/wall_shape.hpp"
 #include "model/conditions/prescribed_motion.hpp"
+#include "state/driven_points.hpp"
 #include "state/points.hpp"
 #include "state/world.hpp"
 
@@ -36,9 +37,8 @@ struct HeldPoints {
   Points points;
   Field<Index>& state;  ///< 0 not held, 1 held, 2 welded
   Field<Real>& push;    ///< force of the wall in this step [ML/T2]
-  const Field<Index>*axes = nullptr, *driven = nullptr;
-  const Field<Real>*projector = nullptr,
-        *change = nullptr;  ///< shared_fields::driven_projector, driven_change
+  const Field<Index>* axes = nullptr;
+  std::optional<DrivenPoints> driven{};
 };
 
 /// A wall and the points of all sets that it holds; each wall names the same sets in the same order.

@@ -289,12 +289,9 @@ TEST(TouchBalance, MiddleVelocitiesAreThoseOfHalfTheChange) {
   WallBodies bodies;
   bodies.of_node.assign(8, -1), bodies.of_node[6] = 0;
   bodies.change = [](Index, const Vec& q, const Clock&) { return Vec(q + Vec(0, 0, 1)); };
-  const Field<Index>& driven = [&]() -> Field<Index>& {
-    Field<Index>& f = shared_fields::prescribed_motion.add(nodes.fields);
-    f[7] = 1;
-    return f;
-  }();
-  const auto v = [&](Index n) { return middle_velocity(scene.world, bodies, scene.clock, &driven, n); };
+  shared_fields::prescribed_motion.add(nodes.fields)[7] = 1;
+  const DrivenPoints driven(nodes.fields);
+  const auto v = [&](Index n) { return middle_velocity(scene.world, bodies, scene.clock, driven, n); };
   EXPECT_NEAR((v(4) - Vec(1, 2, 3) - 0.5 * 0.02 * Vec(4, 0, -4)).norm(), 0, 1e-14);
   EXPECT_EQ(v(5), Vec(1, 2, 3));
   EXPECT_NEAR((v(6) - Vec(1, 2, 3) - 0.5 * (nodes.x.vec(6) + Vec(0, 0, 1))).norm(), 0, 1e-14);
